@@ -1,0 +1,97 @@
+"""Tabular BRDFs: samples on a grid of half/difference angles.
+
+A sample stands at its cell's centre, and NaN means unmeasured. Trilinear interpolation runs between the centres and
+renormalises over the corners that are measured:
+
+    f = sum_j w_j v_j / sum_j w_j        over the corners j with v_j measured
+
+so an unmeasured sample never blends into a value, and a table agrees in the mean with the floor lookup of the
+database's own reader.
+"""
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from .._types import Directions, Table, Values
+from ..errors import FormatError
+from ..halfdiff import Corners, Grid
+from .brdf import Brdf
+
+Interpolation = Literal["trilinear", "floor"]
+
+
+@dataclass(frozen=True, eq=False)
+class TabularBrdf(Brdf):
+    """The samples of one material on a grid.
+
+    Parameters
+    ----------
+    values : float32 array, shape (3, *grid.shape)
+        f_r in 1/sr at the cell centres; NaN where unmeasured. Made read-only.
+    grid : Grid
+        Where the samples stand.
+    name : str
+        What the material is called.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from halfway import MERL, TabularBrdf
+    >>> white = TabularBrdf(np.full((3, *MERL.shape), 1 / np.pi, np.float32), MERL, name="white")
+    >>> up = np.array([0.0, 0.0, 1.0])
+    >>> white.eval(up, up).round(4).tolist()
+    [0.3183, 0.3183, 0.3183]
+    """
+
+    values: Table
+    grid: Grid
+    name: str = ""
+
+    def __post_init__(self) -> None:
+        expected = (3, *self.grid.shape)
+        if self.values.shape != expected:
+            raise FormatError(
+                f"the table {self.name!r} has shape {self.values.shape}: a {self.grid} grid takes {expected}."
+            )
+        values = np.asarray(self.values, np.float32).view()
+        values.flags.writeable = False
+        object.__setattr__(self, "values", values)
+
+    def __repr__(self) -> str:
+        return f"TabularBrdf({self.name!r}, {self.grid})"
+
+    def eval(
+        self, wi: Directions, wo: Directions, *, interpolation: Interpolation = "trilinear"
+    ) -> Values:
+        """f_r in 1/sr, shape (..., 3): 0 below the horizon, NaN where no corner is measured.
+
+        ``floor`` is the lookup of the database's own reader and of pbrt-v2, for comparison.
+        """
+        wi, wo = np.broadcast_arrays(wi, wo)
+        lit = (wi[..., 2] > 0) & (wo[..., 2] > 0)
+        lookup = self.grid.multilinear if interpolation == "trilinear" else self.grid.floor
+        result = np.zeros((*lit.shape, 3))
+        result[lit] = self._blend(lookup(wi[lit], wo[lit])).T
+        return result
+
+    def sample_rows(self, grid: Grid, rows: slice) -> Table:
+        return self.values[:, rows] if grid == self.grid else super().sample_rows(grid, rows)
+
+    def _blend(self, corners: Corners) -> np.ndarray:
+        samples = self.values.reshape(3, -1)
+        total = np.zeros((3, corners.cells.shape[-1]))
+        measured_weight = np.zeros_like(total)
+        for cells, weights in zip(*corners, strict=True):
+            sample = samples[:, cells]
+            measured = ~np.isnan(sample)
+            total += np.where(measured, weights * sample, 0.0)
+            measured_weight += np.where(measured, weights, 0.0)
+        with np.errstate(invalid="ignore"):
+            return total / measured_weight
+
+
+def tabulate(brdf: Brdf, grid: Grid, *, name: str = "") -> TabularBrdf:
+    """The table of any BRDF on a grid: its values at the cell centres, NaN off the grid's mask."""
+    return TabularBrdf(brdf.sample_rows(grid, slice(None)), grid, name=name)

@@ -1,0 +1,40 @@
+"""What can go wrong, as one tree.
+
+    HalfwayError
+    |- FormatError       a file is not what its format says
+    |- LibraryError      a library cannot be built, opened or asked for this
+    |- RecipeError       weights that are no recipe
+    |- SpaceError        a space cannot be made, or a place in it not be reached
+    |- RenderError       a picture cannot be made here
+    `- OutputError       a result cannot be written
+
+Every message is one line: which thing, what is wrong with numbers, what was expected, what to do.
+"""
+
+
+class HalfwayError(Exception):
+    """A mistake a user can mend; the message says how."""
+
+
+class FormatError(HalfwayError):
+    """A file is not what its format says."""
+
+
+class LibraryError(HalfwayError):
+    """A library cannot be built or opened, or has no such material."""
+
+
+class RecipeError(HalfwayError):
+    """Weights that are no recipe: negative, not summing to 1, or of unknown materials."""
+
+
+class SpaceError(HalfwayError):
+    """A space cannot be made of these materials, or a place in it cannot be reached."""
+
+
+class RenderError(HalfwayError):
+    """A picture cannot be made: no usable renderer, an unknown scene, an unreadable mesh."""
+
+
+class OutputError(HalfwayError):
+    """A result cannot be written: no room, no permission, or a file is in the way."""

@@ -1,0 +1,62 @@
+"""Files that are whole or absent: written beside the final name, then renamed into place."""
+
+import errno
+import secrets
+import shutil
+from collections.abc import Generator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+
+from .errors import OutputError
+
+
+@contextmanager
+def replacing(path: Path) -> Generator[Path]:
+    """A temporary path beside ``path`` that takes its place when the block ends well, and is removed when not.
+
+    The temporary name keeps the suffix, so that a writer that chooses its format by the suffix works.
+
+    Raises
+    ------
+    OutputError
+        When the folder cannot be written, or has no room left.
+    """
+    temporary = path.with_name(f".{path.stem}.{secrets.token_hex(6)}{path.suffix}")
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        yield temporary
+        temporary.replace(path)
+    except OSError as error:
+        raise OutputError(_explain(path, error)) from error
+    finally:
+        with suppress(OSError):
+            temporary.unlink()
+
+
+def require_space(folder: Path, n_bytes: int, what: str) -> None:
+    """Refuse to start what the disk cannot hold.
+
+    Raises
+    ------
+    OutputError
+        When the disk of ``folder`` has fewer than ``n_bytes`` free.
+    """
+    existing = next(parent for parent in (folder, *folder.absolute().parents) if parent.exists())
+    free = shutil.disk_usage(existing).free
+    if free < n_bytes:
+        raise OutputError(
+            f"{what} takes {n_bytes / 1e9:.2f} GB and {folder} has {free / 1e9:.2f} GB free: "
+            "free some space or write elsewhere with -o."
+        )
+
+
+def _explain(path: Path, error: OSError) -> str:
+    match error.errno:
+        case errno.ENOSPC:
+            return f"{path} cannot be written: the disk is full. Free some space; what was finished is kept."
+        case errno.EACCES | errno.EROFS | errno.EPERM:
+            return f"{path} cannot be written: no permission in {path.parent}. Choose another folder with -o."
+        case errno.ENOTDIR | errno.EEXIST:
+            return f"{path} cannot be written: part of its path is a file, not a folder. Choose another with -o."
+        case _:
+            return f"{path} cannot be written: {error.strerror or error}."

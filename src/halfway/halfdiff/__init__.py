@@ -1,0 +1,15 @@
+"""Half/difference angles and the grids that sample them."""
+
+from .angles import HalfDiff, cosines, from_half_diff, to_half_diff
+from .grid import MERL, Axis, Corners, Grid
+
+__all__ = [
+    "MERL",
+    "Axis",
+    "Corners",
+    "Grid",
+    "HalfDiff",
+    "cosines",
+    "from_half_diff",
+    "to_half_diff",
+]

@@ -1,0 +1,76 @@
+"""Half and difference angles of a pair of directions.
+
+A direction is a unit vector in the local frame of the surface: normal +z, tangent +x.
+``wi`` points to the light, ``wo`` to the viewer. All angles are in radians.
+
+    h = (wi + wo) / |wi + wo|              theta_h, phi_h are its polar angles
+    d = R_y(-theta_h) R_z(-phi_h) wi       theta_d, phi_d are its polar angles
+
+Swapping ``wi`` and ``wo`` turns phi_d by pi; turning the surface about its normal changes phi_h alone.
+
+Reference: S. Rusinkiewicz, "A New Change of Variables for Efficient BRDF
+Representation", Eurographics Workshop on Rendering 1998, section 3.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from .._types import Angle, Directions
+
+
+class HalfDiff(NamedTuple):
+    """Half/difference angles, in radians; arrays that broadcast together."""
+
+    theta_h: Angle  # [0, pi/2]
+    phi_h: Angle  # (-pi, pi]
+    theta_d: Angle  # [0, pi/2]
+    phi_d: Angle  # (-pi, pi]
+
+
+def to_half_diff(wi: Directions, wo: Directions) -> HalfDiff:
+    """Half/difference angles of the pairs ``(wi, wo)``; not defined where ``wi = -wo``."""
+    h = wi + wo
+    h = h / np.linalg.norm(h, axis=-1, keepdims=True)
+    theta_h, phi_h = _to_polar(h)
+    theta_d, phi_d = _to_polar(_rotate_y(_rotate_z(wi, -phi_h), -theta_h))
+    return HalfDiff(theta_h, phi_h, theta_d, phi_d)
+
+
+def from_half_diff(angles: HalfDiff) -> tuple[Directions, Directions]:
+    """The pairs ``(wi, wo)`` with these half/difference angles; the inverse of `to_half_diff`."""
+    theta_h, phi_h, theta_d, phi_d = np.broadcast_arrays(*angles)
+    d = _from_polar(theta_d, phi_d)
+    mirrored = d * np.array([-1.0, -1.0, 1.0])
+    wi, wo = (_rotate_z(_rotate_y(v, theta_h), phi_h) for v in (d, mirrored))
+    return wi, wo
+
+
+def cosines(theta_h: Angle, theta_d: Angle, phi_d: Angle) -> tuple[Angle, Angle]:
+    """Cosines of the angles that ``wi`` and ``wo`` make with the normal: the z of `from_half_diff`."""
+    along = np.cos(theta_h) * np.cos(theta_d)
+    across = np.sin(theta_h) * np.sin(theta_d) * np.cos(phi_d)
+    return along - across, along + across
+
+
+def _to_polar(v: Directions) -> tuple[Angle, Angle]:
+    x, y, z = np.moveaxis(v, -1, 0)
+    # arctan2 keeps full precision near the pole, where arccos(z) loses half the digits.
+    return np.arctan2(np.hypot(x, y), z), np.arctan2(y, x)
+
+
+def _from_polar(theta: Angle, phi: Angle) -> Directions:
+    sin = np.sin(theta)
+    return np.stack([sin * np.cos(phi), sin * np.sin(phi), np.cos(theta)], axis=-1)
+
+
+def _rotate_y(v: Directions, angle: Angle) -> Directions:
+    x, y, z = np.moveaxis(v, -1, 0)
+    c, s = np.cos(angle), np.sin(angle)
+    return np.stack([c * x + s * z, y, c * z - s * x], axis=-1)
+
+
+def _rotate_z(v: Directions, angle: Angle) -> Directions:
+    x, y, z = np.moveaxis(v, -1, 0)
+    c, s = np.cos(angle), np.sin(angle)
+    return np.stack([c * x - s * y, s * x + c * y, z], axis=-1)

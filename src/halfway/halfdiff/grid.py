@@ -1,0 +1,166 @@
+"""Grids over half/difference angles.
+
+An axis of n cells maps an angle to a *position* in [0, n]. Cell i spans positions [i, i + 1] and its sample
+stands at the centre, i + 1/2:
+
+    position    0         1         2                       n
+                |----o----|----o----|----o----|  ...  |----o|
+    sample           0         1         2               n-1
+
+The MERL grid (W. Matusik et al., "A Data-Driven Reflectance Model", SIGGRAPH 2003, and the reader that comes with
+the database) has 90 x 90 x 180 cells:
+
+    position in theta_h   90 sqrt(theta_h / (pi/2))     narrow cells where highlights are
+    position in theta_d   90 theta_d / (pi/2)
+    position in phi_d     180 phi_d / pi                period pi, by reciprocity
+
+The database's own reader takes the floor of the position. Code that puts the sample at the cell's left edge (position
+i) is half a cell off: see the conventions page of the docs.
+"""
+
+import math
+from dataclasses import dataclass
+from functools import lru_cache, reduce
+from itertools import product
+from typing import NamedTuple
+
+import numpy as np
+
+from .._types import Angle, Directions, Indices, Mask
+from .angles import HalfDiff, cosines, from_half_diff, to_half_diff
+
+
+@dataclass(frozen=True)
+class Axis:
+    """One angle in [0, stop] cut into ``size`` cells, evenly in ``angle ** (1 / power)``."""
+
+    angle: str
+    """Which angle: a field of `HalfDiff`."""
+    size: int
+    stop: float
+    """The largest angle, in radians; the period of a periodic axis."""
+    power: int = 1
+    """1: evenly spaced; 2: square-root spaced, narrow cells near 0."""
+    periodic: bool = False
+
+    def to_position(self, angle: Angle) -> Angle:
+        """Positions in [0, size] of angles in radians."""
+        if self.periodic:
+            # The remainder of a tiny negative angle rounds to the period itself, which is position 0.
+            return self.size * (np.mod(angle, self.stop) / self.stop) % self.size
+        return self.size * np.clip(angle / self.stop, 0, 1) ** (1 / self.power)
+
+    def to_angle(self, position: Angle) -> Angle:
+        """Angles in radians of positions in [0, size]."""
+        return self.stop * (position / self.size) ** self.power
+
+    def centres(self) -> Angle:
+        """Angles of the cell centres, shape (size,)."""
+        return self.to_angle(np.arange(self.size) + 0.5)
+
+
+class Corners(NamedTuple):
+    """The cells that a lookup blends."""
+
+    cells: Indices  # (n_corners, ...), flat indices into the grid
+    weights: Angle  # (n_corners, ...), non-negative, summing to 1 over the first axis
+
+
+@dataclass(frozen=True)
+class Grid:
+    """Cells over some of the half/difference angles, in the order in which a table stores them."""
+
+    axes: tuple[Axis, ...]
+
+    @classmethod
+    def merl(cls, n_theta_h: int = 90, n_theta_d: int = 90, n_phi_d: int = 180) -> "Grid":
+        """The grid of a MERL file whose header states these sizes."""
+        return cls(
+            (
+                Axis("theta_h", n_theta_h, math.pi / 2, power=2),
+                Axis("theta_d", n_theta_d, math.pi / 2),
+                Axis("phi_d", n_phi_d, math.pi, periodic=True),
+            )
+        )
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Cells along each axis."""
+        return tuple(axis.size for axis in self.axes)
+
+    @property
+    def size(self) -> int:
+        """Number of cells."""
+        return math.prod(self.shape)
+
+    def __str__(self) -> str:
+        return " x ".join(map(str, self.shape))
+
+    def centres(self) -> HalfDiff:
+        """Angles of the cell centres, as arrays that broadcast to `shape`; 0 for an angle without an axis."""
+        angles = {name: np.zeros((1,) * len(self.axes)) for name in HalfDiff._fields}
+        for i, axis in enumerate(self.axes):
+            along = [1] * len(self.axes)
+            along[i] = axis.size
+            angles[axis.angle] = axis.centres().reshape(along)
+        return HalfDiff(**angles)
+
+    def directions(self) -> tuple[Directions, Directions]:
+        """The pair ``(wi, wo)`` at every cell centre, each of shape (*shape, 3)."""
+        wi, wo = from_half_diff(self.centres())
+        shape = (*self.shape, 3)
+        return np.broadcast_to(wi, shape), np.broadcast_to(wo, shape)
+
+    def mask(self) -> Mask:
+        """True where both directions at the cell's centre are above the horizon, shape `shape`; read-only."""
+        return _mask(self)
+
+    def floor(self, wi: Directions, wo: Directions) -> Corners:
+        """The cell that each pair falls into: the lookup of the database's own reader and of pbrt-v2."""
+        cells = [
+            np.minimum(np.floor(x).astype(np.intp), axis.size - 1)
+            for axis, x in zip(self.axes, self._positions(wi, wo), strict=True)
+        ]
+        flat = np.ravel_multi_index(tuple(cells), self.shape)
+        return Corners(flat[None], np.ones((1, *flat.shape)))
+
+    def multilinear(self, wi: Directions, wo: Directions) -> Corners:
+        """The 2^d cells around each pair; periodic axes wrap, on the others the outer half cells clamp."""
+        sides = [
+            _neighbours(axis, x) for axis, x in zip(self.axes, self._positions(wi, wo), strict=True)
+        ]
+        corners = list(product(*sides))
+        cells = [
+            np.ravel_multi_index(tuple(cell for cell, _ in corner), self.shape)
+            for corner in corners
+        ]
+        weights = [reduce(np.multiply, [weight for _, weight in corner]) for corner in corners]
+        return Corners(np.stack(cells), np.stack(weights))
+
+    def _positions(self, wi: Directions, wo: Directions) -> list[Angle]:
+        angles = to_half_diff(wi, wo)
+        return [axis.to_position(getattr(angles, axis.angle)) for axis in self.axes]
+
+
+MERL = Grid.merl()
+"""The grid of the MERL database: 90 x 90 x 180 cells."""
+
+
+@lru_cache(maxsize=8)
+def _mask(grid: Grid) -> Mask:
+    angles = grid.centres()
+    cos_i, cos_o = cosines(angles.theta_h, angles.theta_d, angles.phi_d)
+    mask = np.broadcast_to((cos_i > 0) & (cos_o > 0), grid.shape).copy()
+    mask.flags.writeable = False
+    return mask
+
+
+def _neighbours(axis: Axis, position: Angle) -> list[tuple[Indices, Angle]]:
+    lower = np.floor(position - 0.5).astype(np.intp)
+    fraction = position - 0.5 - lower
+    cells = [lower, lower + 1]
+    if axis.periodic:
+        cells = [cell % axis.size for cell in cells]
+    else:
+        cells = [np.clip(cell, 0, axis.size - 1) for cell in cells]
+    return [(cells[0], 1 - fraction), (cells[1], fraction)]
