@@ -18,6 +18,10 @@ class Brdf(ABC):
     def eval(self, wi: Directions, wo: Directions) -> Values:
         """f_r in 1/sr, shape (..., 3): 0 where a direction is below the horizon, NaN where unmeasured."""
 
+    @abstractmethod
+    def fingerprint(self) -> bytes:
+        """Bytes that change when any value of the BRDF does: the material's part of a library's checksum."""
+
     def sample_rows(self, grid: Grid, rows: slice) -> Table:
         """Samples at the cell centres of the rows ``rows`` of the grid's first axis; NaN off the grid's mask."""
         wi, wo = (directions[rows] for directions in grid.directions())

@@ -9,6 +9,7 @@ so an unmeasured sample never blends into a value, and a table agrees in the mea
 database's own reader.
 """
 
+import hashlib
 from dataclasses import dataclass
 from typing import Literal
 
@@ -75,6 +76,9 @@ class TabularBrdf(Brdf):
         result = np.zeros((*lit.shape, 3))
         result[lit] = self._blend(lookup(wi[lit], wo[lit])).T
         return result
+
+    def fingerprint(self) -> bytes:
+        return hashlib.sha256(self.values).digest()
 
     def sample_rows(self, grid: Grid, rows: slice) -> Table:
         return self.values[:, rows] if grid == self.grid else super().sample_rows(grid, rows)
