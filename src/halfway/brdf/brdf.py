@@ -4,11 +4,15 @@
 """
 
 from abc import ABC, abstractmethod
+from typing import ClassVar
 
 import numpy as np
 
-from .._types import Angle, Directions, Table, Values
-from ..halfdiff import Grid, cosines, to_half_diff
+from .._types import Angle, Directions, Mask, Table, Values
+from ..halfdiff import Grid, HalfDiff, cosines, to_half_diff
+
+# Float64 arrays of this many cells stay in a core's cache: the MERL grid goes two to three times faster than in one piece.
+_CELLS_IN_CACHE = 32768
 
 
 class Brdf(ABC):
@@ -36,6 +40,9 @@ class IsotropicModel(Brdf):
     then handed over unexpanded, so a factor that depends on theta_h alone is computed 90 times, not 1,458,000.
     """
 
+    formula: ClassVar[str] = ""
+    """Which formula: part of `fingerprint`, so it changes whenever the values do."""
+
     @abstractmethod
     def at(
         self, theta_h: Angle, theta_d: Angle, phi_d: Angle, cos_i: Angle, cos_o: Angle
@@ -53,11 +60,28 @@ class IsotropicModel(Brdf):
         return values
 
     def sample_rows(self, grid: Grid, rows: slice) -> Table:
-        theta_h, _, theta_d, phi_d = grid.centres()
-        theta_h = theta_h[rows]
+        lit = grid.mask()[rows]
+        samples = np.full((3, *lit.shape), np.nan, np.float32)
+        n_rows = max(1, _CELLS_IN_CACHE * grid.shape[0] // grid.size)
+        for start in range(0, len(lit), n_rows):
+            part = slice(start, start + n_rows)
+            values = self._at_centres(_cut(_cut(grid.centres(), rows), part), lit[part])
+            np.copyto(samples[:, part], values, where=lit[part])
+        return samples
+
+    def _at_centres(self, centres: HalfDiff, lit: Mask) -> np.ndarray:
+        theta_h, _, theta_d, phi_d = centres
         cos_i, cos_o = cosines(theta_h, theta_d, phi_d)
-        lit = (cos_i > 0) & (cos_o > 0)
         # Off the mask any positive cosine will do: the value is not kept.
         cos_i, cos_o = (np.where(lit, cosine, 1.0) for cosine in (cos_i, cos_o))
-        values = self.at(theta_h, theta_d, phi_d, cos_i, cos_o)
-        return np.where(lit, values, np.nan).astype(np.float32)
+        return self.at(theta_h, theta_d, phi_d, cos_i, cos_o)
+
+    def fingerprint(self) -> bytes:
+        """Bytes that are the same for the same formula and numbers, on every machine; for a checksum."""
+        numbers = (np.asarray(value, "<f8").tobytes() for value in vars(self).values())
+        return b"".join([self.formula.encode(), b"\0", *numbers])
+
+
+def _cut(centres: HalfDiff, rows: slice) -> HalfDiff:
+    """The angles on some rows of the first axis; those that do not vary along it stay as they are."""
+    return HalfDiff(*(angle if len(angle) == 1 else angle[rows] for angle in centres))
