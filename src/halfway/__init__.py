@@ -1,8 +1,25 @@
-"""New materials from measured ones."""
+"""New materials from measured ones.
 
-from .brdf import Brdf, TabularBrdf, directional_albedo, tabulate
-from .errors import HalfwayError
-from .halfdiff import MERL, Grid, HalfDiff, from_half_diff, to_half_diff
+The names below load when first used, so that ``import halfway`` and ``halfway --help`` are immediate.
+"""
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from .brdf import Brdf, TabularBrdf, directional_albedo, tabulate
+    from .errors import HalfwayError
+    from .halfdiff import MERL, Grid, HalfDiff, from_half_diff, to_half_diff
+    from .library import Library, Pca, build_library, open_library
+    from .space import LinearSpace, PaperSpace, Recipe, Route, Space, mix
+
+_HOMES = {
+    "brdf": ("Brdf", "TabularBrdf", "directional_albedo", "tabulate"),
+    "errors": ("HalfwayError",),
+    "halfdiff": ("MERL", "Grid", "HalfDiff", "from_half_diff", "to_half_diff"),
+    "library": ("Library", "Pca", "build_library", "open_library"),
+    "space": ("LinearSpace", "PaperSpace", "Recipe", "Route", "Space", "mix"),
+}
 
 __all__ = [
     "MERL",
@@ -10,9 +27,30 @@ __all__ = [
     "Grid",
     "HalfDiff",
     "HalfwayError",
+    "Library",
+    "LinearSpace",
+    "PaperSpace",
+    "Pca",
+    "Recipe",
+    "Route",
+    "Space",
     "TabularBrdf",
+    "build_library",
     "directional_albedo",
     "from_half_diff",
+    "mix",
+    "open_library",
     "tabulate",
     "to_half_diff",
 ]
+
+
+def __getattr__(name: str) -> Any:
+    for home, names in _HOMES.items():
+        if name in names:
+            return getattr(import_module(f".{home}", __name__), name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return __all__

@@ -5,6 +5,7 @@
     |- LibraryError      a library cannot be built, opened or asked for this
     |- RecipeError       weights that are no recipe
     |- SpaceError        a space cannot be made, or a place in it not be reached
+    |  `- OutsideHullError   the place is not between the materials
     |- RenderError       a picture cannot be made here
     `- OutputError       a result cannot be written
 
@@ -32,9 +33,17 @@ class SpaceError(HalfwayError):
     """A space cannot be made of these materials, or a place in it cannot be reached."""
 
 
+class OutsideHullError(SpaceError):
+    """A point of a space that is no mix of its materials."""
+
+
 class RenderError(HalfwayError):
     """A picture cannot be made: no usable renderer, an unknown scene, an unreadable mesh."""
 
 
 class OutputError(HalfwayError):
     """A result cannot be written: no room, no permission, or a file is in the way."""
+
+
+class DegenerateSpaceWarning(UserWarning):
+    """Materials coincide or lie in fewer dimensions than asked for; the space has fewer, and works."""

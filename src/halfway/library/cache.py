@@ -1,0 +1,33 @@
+"""Small dear results, kept in a folder under a key that changes when their input does."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+
+from ..errors import OutputError
+from ..files import replacing
+
+
+def cached(
+    folder: Path | None, key: str, compute: Callable[[], dict[str, np.ndarray]]
+) -> dict[str, np.ndarray]:
+    """The arrays that ``compute`` gives, from ``folder`` when it has them under ``key``.
+
+    A folder that cannot be written costs the time to compute again, never the result; a damaged file is replaced.
+    """
+    if folder is None:
+        return compute()
+    path = folder / f"{key}.npz"
+    try:
+        with np.load(path, allow_pickle=False) as archive:
+            return dict(archive)
+    except Exception:  # noqa: BLE001, S110 (absent or damaged in any way: compute)
+        pass
+    arrays = compute()
+    try:
+        with replacing(path) as temporary:
+            np.savez(temporary, **arrays)  # pyright: ignore[reportArgumentType] (arrays by name)
+    except OutputError:
+        pass
+    return arrays

@@ -1,0 +1,88 @@
+"""What every library can do.
+
+A library is a set of N materials on one grid of p cells (the paper's "basis of materials"):
+
+    names           N names, in the library's order
+    row(i)          all samples of one material, (3, p)
+    blocks()        column ranges that are cheap to read, together all p
+    columns(range)  the samples of all materials on one range, (3, N, n)
+
+There are two kinds behind this interface: *stored* on disk, and *procedural*, computed when asked for.
+"""
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+from difflib import get_close_matches
+
+from .._types import Rows, Table
+from ..brdf import TabularBrdf
+from ..errors import LibraryError
+from ..halfdiff import Grid
+
+BLOCK_BYTES = 16e6
+"""About how many bytes of float64 one channel of a block holds: small enough for a cache, large enough for BLAS."""
+
+
+@dataclass(frozen=True)
+class Origin:
+    """Where the materials come from, for people."""
+
+    description: str = ""
+    """One line; says "stand-in" where the materials are fits and not measurements."""
+    source: str = ""
+    licence: str = ""
+
+
+class Library(ABC):
+    """A set of materials on one grid."""
+
+    name: str
+    names: tuple[str, ...]
+    grid: Grid
+    origin: Origin
+
+    @property
+    @abstractmethod
+    def checksum(self) -> str:
+        """Hex digits that change when any sample, name or the grid changes."""
+
+    @abstractmethod
+    def row(self, i: int) -> Table:
+        """All samples of material ``i``, shape (3, p), float32, 1/sr; NaN where unmeasured. The caller owns it."""
+
+    @abstractmethod
+    def columns(self, columns: slice) -> Rows:
+        """Samples of all materials on one of the ranges of `blocks`, shape (3, N, n)."""
+
+    @abstractmethod
+    def blocks(self) -> list[slice]:
+        """Ranges of columns that together cover the grid once."""
+
+    def __len__(self) -> int:
+        return len(self.names)
+
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__} {self.name!r}: {len(self)} materials on {self.grid}>"
+
+    def index(self, name: str) -> int:
+        """Position of the material called ``name``.
+
+        Raises
+        ------
+        LibraryError
+            When there is none; the message names the nearest spellings.
+        """
+        try:
+            return self.names.index(name)
+        except ValueError:
+            near = get_close_matches(name, self.names, n=3, cutoff=0.5)
+            hint = f"did you mean {', '.join(near)}?" if near else f"such as {self.names[0]}."
+            raise LibraryError(
+                f"{name!r} is not one of the {len(self)} materials of {self.name}: {hint} "
+                f"`halfway library info {self.name}` lists them."
+            ) from None
+
+    def brdf(self, name: str) -> TabularBrdf:
+        """The table of the material called ``name``."""
+        values = self.row(self.index(name)).reshape(3, *self.grid.shape)
+        return TabularBrdf(values, self.grid, name=name)

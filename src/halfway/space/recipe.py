@@ -1,0 +1,131 @@
+"""Recipes: barycentric weights over the materials of a library.
+
+A material is its recipe: some hundred bytes. Tables and pictures are made from it on demand. As JSON,
+
+    {"library": "builtin:merl-abc", "weights": {"gold-paint": 0.7, "teflon": 0.3}}
+    {"library": "builtin:merl-abc", "weights": {"r": {...}, "g": {...}, "b": {...}}}
+
+the second form where the channels differ. Every weight is positive and each channel sums to 1.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from jaxtyping import Float64
+
+from ..errors import RecipeError
+
+CHANNELS = ("r", "g", "b")
+SUM_TOLERANCE = 1e-6
+"""How far a channel's written weights may sum from 1; they are then scaled to sum to 1 exactly."""
+
+
+@dataclass(frozen=True, eq=False)
+class Recipe:
+    """Weights over some materials of a library, per channel.
+
+    Parameters
+    ----------
+    library : str
+        The library's name.
+    names : tuple of str
+        The n materials that carry weight in any channel.
+    weights : float64 array, shape (3, n)
+        Non-negative; each row sums to 1.
+
+    Examples
+    --------
+    >>> from halfway import Recipe
+    >>> recipe = Recipe.from_text("builtin:merl-abc", "gold-paint=0.7, teflon=0.3")
+    >>> recipe.to_json()["weights"]
+    {'gold-paint': 0.7, 'teflon': 0.3}
+    """
+
+    library: str
+    names: tuple[str, ...]
+    weights: Float64[np.ndarray, "3 n"]
+
+    def __post_init__(self) -> None:
+        self.weights.flags.writeable = False
+
+    def __repr__(self) -> str:
+        return f"Recipe({self.library!r}, {self.to_json()['weights']})"
+
+    @classmethod
+    def of(cls, library: str, weights: Mapping[str, Any]) -> "Recipe":
+        """The recipe with these weights: one map for all channels, or one under each of "r", "g", "b".
+
+        Raises
+        ------
+        RecipeError
+            When a weight is negative or no number, or a channel does not sum to 1.
+        """
+        per_channel = [weights[c] for c in CHANNELS] if set(weights) == set(CHANNELS) else [weights] * 3
+        names = tuple(dict.fromkeys(name for channel in per_channel for name in channel))
+        checked = [_checked(channel, f"channel {c}") for c, channel in zip(CHANNELS, per_channel, strict=True)]
+        return cls(
+            library, names, np.array([[channel.get(name, 0.0) for name in names] for channel in checked])
+        )
+
+    @classmethod
+    def from_dense(
+        cls, library: str, names: tuple[str, ...], weights: Float64[np.ndarray, "3 N"]
+    ) -> "Recipe":
+        """The recipe of weights over all ``names``, keeping those that carry any."""
+        kept = np.flatnonzero(weights.any(axis=0))
+        return cls(library, tuple(names[i] for i in kept), weights[:, kept])
+
+    @classmethod
+    def from_text(cls, library: str, text: str) -> "Recipe":
+        """The recipe written as ``"gold-paint=0.7, teflon=0.3"``."""
+        weights: dict[str, float] = {}
+        for part in filter(None, (part.strip() for part in text.split(","))):
+            name, equals, number = (piece.strip() for piece in part.partition("="))
+            if not equals:
+                raise RecipeError(
+                    f"{part!r} has no weight: expected NAME=WEIGHT, such as \"gold-paint=0.7, teflon=0.3\"."
+                )
+            if name in weights:
+                raise RecipeError(f"{name} is given twice in {text!r}: write each material once.")
+            try:
+                weights[name] = float(number)
+            except ValueError:
+                raise RecipeError(f"the weight of {name}, {number!r}, is no number.") from None
+        return cls.of(library, weights)
+
+    @classmethod
+    def from_json(cls, document: Any, *, library: str = "") -> "Recipe":
+        """The recipe in a JSON document; ``library`` stands in where the document names none."""
+        try:
+            weights = document["weights"]
+            return cls.of(document.get("library", library), weights)
+        except (KeyError, TypeError, AttributeError):
+            raise RecipeError(
+                "this JSON is no recipe: expected {\"library\": NAME, \"weights\": {MATERIAL: WEIGHT, ...}}."
+            ) from None
+
+    def to_json(self) -> dict[str, Any]:
+        """The JSON document; one map of weights where the channels are the same."""
+        channels = [
+            {name: w for name, w in zip(self.names, row, strict=True) if w > 0}
+            for row in self.weights.tolist()
+        ]
+        same = channels[0] == channels[1] == channels[2]
+        weights = channels[0] if same else dict(zip(CHANNELS, channels, strict=True))
+        return {"library": self.library, "weights": weights}
+
+
+def _checked(weights: Mapping[str, Any], where: str) -> dict[str, float]:
+    for name, weight in weights.items():
+        if isinstance(weight, bool) or not isinstance(weight, int | float) or not weight >= 0:
+            raise RecipeError(
+                f"the weight of {name} in {where} is {weight!r}: a recipe takes numbers that are not negative."
+            )
+    total = sum(weights.values())
+    if not abs(total - 1) <= SUM_TOLERANCE:
+        raise RecipeError(
+            f"the weights in {where} sum to {total:.6g}: they must sum to 1. Divide each by {total:.6g}."
+        )
+    return {name: float(weight) / total for name, weight in weights.items()}

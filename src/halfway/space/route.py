@@ -1,0 +1,123 @@
+"""Routes: from one material to another, and on.
+
+The straight line from p to q in a space is ``s(t) = (1 - t) p + t q`` (eq. 6); its recipes are piecewise linear in t.
+With several stops each leg takes an equal share of t.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from jaxtyping import Float64
+
+from ..errors import SpaceError
+from .recipe import Recipe
+from .spaces import Space, interpolate
+
+FORMAT = 1
+
+
+@dataclass(frozen=True, eq=False)
+class Route:
+    """A sequence of recipes through two or more stops.
+
+    Examples
+    --------
+    >>> from halfway import LinearSpace, Route, open_library
+    >>> library = open_library("builtin:merl-abc")
+    >>> space = LinearSpace(library.name, library.names)
+    >>> route = Route.through(space, ["teflon", "gold-paint"])
+    >>> route.recipe(0.25).to_json()["weights"]
+    {'gold-paint': 0.25, 'teflon': 0.75}
+    """
+
+    library: str
+    space: str
+    pace: str
+    stops: tuple[str, ...]
+    names: tuple[str, ...]
+    """All materials of the library."""
+    knots: Float64[np.ndarray, " n_knots"]
+    """Ascending from 0 to 1."""
+    weights: Float64[np.ndarray, "3 n_knots N"]
+    """At the knots; linear between them."""
+
+    @classmethod
+    def through(cls, space: Space, stops: Sequence[str], *, pace: str = "uniform") -> "Route":
+        """The route through materials named ``stops``.
+
+        Raises
+        ------
+        SpaceError
+            With fewer than two stops, a stop that follows itself, or one that the library does not have.
+        """
+        _check_stops(space, stops)
+        indices = [space.names.index(stop) for stop in stops]
+        legs = [space.leg(a, b) for a, b in zip(indices, indices[1:], strict=False)]
+        # The last knot of a leg is the first of the next.
+        knots = [(i + leg.knots[:-1]) / len(legs) for i, leg in enumerate(legs)]
+        weights = [leg.weights[:, :-1] for leg in legs]
+        return cls(
+            space.library,
+            space.name,
+            pace,
+            tuple(stops),
+            space.names,
+            np.append(np.concatenate(knots), 1.0),
+            np.concatenate([*weights, legs[-1].weights[:, -1:]], axis=1),
+        )
+
+    def at(self, t: Float64[np.ndarray, " n"]) -> Float64[np.ndarray, "3 n N"]:
+        """Weights of all materials at each t in [0, 1]."""
+        return interpolate(t, self.knots, self.weights)
+
+    def recipe(self, t: float) -> Recipe:
+        """The recipe at one t."""
+        return self.recipes([t])[0]
+
+    def recipes(self, t: Sequence[float]) -> list[Recipe]:
+        """The recipe at each t.
+
+        Raises
+        ------
+        SpaceError
+            When a t is not in [0, 1].
+        """
+        ts = np.asarray(t, np.float64)
+        outside = ts[~((ts >= 0) & (ts <= 1))]
+        if len(outside):
+            raise SpaceError(f"t = {outside[0]:g} is off the route: expected 0 (first stop) to 1 (last stop).")
+        weights = np.moveaxis(self.at(ts), 1, 0)
+        return [Recipe.from_dense(self.library, self.names, w) for w in weights]
+
+    def to_json(self, t: Sequence[float]) -> dict[str, Any]:
+        """The document ``recipes.json``: the recipes at each t, and where they come from."""
+        recipes = zip(t, self.recipes(t), strict=True)
+        return {
+            "format": FORMAT,
+            "library": self.library,
+            "space": self.space,
+            "pace": self.pace,
+            "blend": "linear",
+            "stops": list(self.stops),
+            "recipes": [{"t": float(x), "weights": r.to_json()["weights"]} for x, r in recipes],
+        }
+
+
+def uniform(n_steps: int) -> list[float]:
+    """``n_steps`` evenly spaced t from 0 to 1, both ends included."""
+    if n_steps < 2:
+        raise SpaceError(f"a route of {n_steps} materials has no two ends: expected -n 2 or more.")
+    return [i / (n_steps - 1) for i in range(n_steps)]
+
+
+def _check_stops(space: Space, stops: Sequence[str]) -> None:
+    if len(stops) < 2:
+        raise SpaceError(f"a route with {len(stops)} stop goes nowhere: name at least two materials.")
+    for stop, following in zip(stops, stops[1:], strict=False):
+        if stop == following:
+            raise SpaceError(f"{stop} follows itself on this route: name each stop once in a row.")
+    for stop in stops:
+        if stop not in space.names:
+            raise SpaceError(f"{stop!r} is not a material of {space.library}.")
