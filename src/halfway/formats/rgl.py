@@ -1,0 +1,186 @@
+"""RGL materials: the `.bsdf` files of the material database of EPFL's Realistic Graphics Lab.
+
+A measurement fixes one direction, ``i``, and moves the other, ``o``; m is the half vector. In the files' coordinates
+
+    u_theta(theta) = sqrt(2 theta / pi)         u_phi(phi) = (phi + pi) / (2 pi)
+    s = invert(vndf(.; phi_i, theta_i), u(m))   the point that the density of visible normals takes to m
+    f_r cos(theta_o) = rgb(s; phi_i, theta_i) D(m) / (4 sigma(i))
+
+where D is the density of normals (`ndf`) and sigma(i) the area of the microsurface seen from i. An isotropic file
+has one phi_i and takes phi_m relative to it.
+
+A renderer that traces rays from the camera puts the viewer in the place of ``i``, and so does `RglBrdf.eval`: it is
+what Mitsuba's `measured` and pbrt-v4 show. Where a measurement is not reciprocal, a table takes the mean of both orders.
+
+Source: J. Dupuy, W. Jakob, "An Adaptive Parameterization for Efficient Material Acquisition and Rendering", ACM TOG
+37(6), 2018; the names of the fields and their order are those of the readers (Mitsuba's `measured`,
+rgl-epfl/brdf-loader).
+"""
+
+import hashlib
+import math
+import warnings
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from .._types import Angle, Directions, Table, Values
+from ..brdf import Brdf
+from ..halfdiff import MERL, Grid, HalfDiff, from_half_diff
+from .rgl_warp import Interpolant, Warp, slices
+
+_TURNS = 2 * np.pi / 16 * np.arange(16)
+"""Turns about the normal over which an anisotropic material is averaged."""
+
+_BLOCK = 1 << 14  # pairs evaluated at once: the temporaries stay in the cache
+
+
+@dataclass(frozen=True, eq=False)
+class RglBrdf(Brdf):
+    """A material of the RGL database; made by `rgl_reader.read_rgl`."""
+
+    name: str
+    description: str
+    """What the measurers say it is."""
+    source: str
+    """Where the colours come from: the file's own RGB, or its spectra and how they were converted."""
+    phi_i: np.ndarray
+    theta_i: np.ndarray
+    """The fixed directions of the measurement, in radians, ascending."""
+    ndf: Interpolant
+    sigma: Interpolant
+    vndf: Warp
+    rgb: Interpolant
+    has_jacobian: bool
+    """Whether `rgb` is divided by D / (4 sigma), as in all files of the database."""
+
+    @property
+    def is_isotropic(self) -> bool:
+        """Whether turning the surface about its normal changes nothing."""
+        return len(self.phi_i) <= 2
+
+    def eval(self, wi: Directions, wo: Directions) -> Values:
+        """f_r in 1/sr, shape (..., 3): 0 below the horizon; negative where the measured colour is out of gamut."""
+        wi, wo = np.broadcast_arrays(wi, wo)
+        lit = (wi[..., 2] > 0) & (wo[..., 2] > 0)
+        result = np.zeros((*lit.shape, 3))
+        result[lit] = self._in_blocks(wo[lit], wi[lit])
+        return result
+
+    def fingerprint(self) -> bytes:
+        arrays = (
+            self.phi_i,
+            self.theta_i,
+            self.ndf.nodes,
+            self.sigma.nodes,
+            self.vndf.density,
+            self.rgb.nodes,
+        )
+        digest = hashlib.sha256(bytes([self.has_jacobian]))
+        for array in arrays:
+            digest.update(repr(array.shape).encode())
+            digest.update(np.ascontiguousarray(array).data)
+        return digest.digest()
+
+    def sample_rows(self, grid: Grid, rows: slice) -> Table:
+        """Samples at the cell centres; what a table can hold of the material.
+
+        The mean over both orders of light and viewer, because the half/difference grid takes a material as
+        reciprocal, clamped at 0, and for an anisotropic material the mean over phi_h, with a warning that says how much
+        it varies.
+        """
+        mask = grid.mask()[rows]
+        if not self.is_isotropic:
+            warnings.warn(
+                f"{self.name} is anisotropic: its values vary by {self.anisotropy:.0%} as it turns about its normal. "
+                f"The table holds the mean over {len(_TURNS)} turns.",
+                stacklevel=2,
+            )
+        values = np.zeros((int(mask.sum()), 3))
+        wi, wo = (directions[rows][mask] for directions in grid.directions())
+        turns = _TURNS[:1] if self.is_isotropic else _TURNS
+        for turn in turns:
+            values += self._reciprocal(_turned(wi, turn), _turned(wo, turn)) / len(turns)
+        result = np.full((3, *mask.shape), np.nan, np.float32)
+        result[:, mask] = np.maximum(values, 0).T
+        return result
+
+    @cached_property
+    def anisotropy(self) -> float:
+        """How much the values vary as the surface turns: standard deviation over mean, over pairs of directions; 0 if isotropic."""
+        if self.is_isotropic:
+            return 0.0
+        i, o = from_half_diff(_spread())
+        lit = (i[:, 2] > 0) & (o[:, 2] > 0)
+        values = np.stack(
+            [self._reciprocal(_turned(i[lit], a), _turned(o[lit], a)) for a in _TURNS]
+        )
+        return float(values.std(axis=0).sum() / np.abs(values.mean(axis=0)).sum())
+
+    def _reciprocal(self, wi: Directions, wo: Directions) -> np.ndarray:
+        return (self._in_blocks(wo, wi) + self._in_blocks(wi, wo)) / 2
+
+    def _in_blocks(self, i: Directions, o: Directions) -> np.ndarray:
+        """f_r of pairs above the horizon, shape (n, 3)."""
+        starts = range(0, len(i), _BLOCK)
+        blocks = [
+            self._at(i[start : start + _BLOCK], o[start : start + _BLOCK]) for start in starts
+        ]
+        return np.concatenate(blocks) if blocks else np.zeros((0, 3))
+
+    def _at(self, i: Directions, o: Directions) -> np.ndarray:
+        i, o = self._folded(i, o)
+        m = i + o
+        theta_i, phi_i = _polar(i)
+        theta_m, phi_m = _polar(m)
+        u_m = _u_theta(theta_m), _u_phi(phi_m - phi_i if self.is_isotropic else phi_m)
+        where = slices((self.phi_i, self.theta_i), (phi_i, theta_i))
+        values = self.rgb.at(*self.vndf.invert(*u_m, where), where)
+        if self.has_jacobian:
+            everywhere = slices((), ())
+            sigma = self.sigma.at(_u_theta(theta_i), _u_phi(phi_i), everywhere)
+            scale = self.ndf.at(*u_m, everywhere)
+            values *= np.divide(scale, 4 * sigma, out=np.zeros_like(scale), where=sigma > 0)
+        return values / o[:, 2:]
+
+    def _folded(self, i: Directions, o: Directions) -> tuple[Directions, Directions]:
+        """The pair turned or mirrored into the part of the circle that the file covers."""
+        if self.is_isotropic:
+            return i, o
+        n_parts = round(2 * math.pi / float(self.phi_i[-1] - self.phi_i[0]))
+        if n_parts < 2:
+            return i, o
+        # A material with one mirror plane and a half turn is stored for a quarter, one with a half turn for a half.
+        flip_y = np.where(i[:, 1] < 0, 1.0, -1.0)
+        flip_x = np.where(i[:, 0] < 0, 1.0, -1.0) if n_parts == 4 else flip_y
+        flip = np.stack([flip_x, flip_y, np.ones_like(flip_y)], axis=-1)
+        return flip * i, flip * o
+
+
+def _spread() -> HalfDiff:
+    """Half/difference angles of 1,000 pairs, evenly spread over the positions of a MERL table (additive recurrence)."""
+    position = np.outer(np.arange(1000) + 0.5, [0.8191725, 0.6710436, 0.5497005]) % 1
+    theta_h, theta_d, phi_d = (
+        axis.to_angle(x * axis.size) for axis, x in zip(MERL.axes, position.T, strict=True)
+    )
+    return HalfDiff(theta_h, np.zeros_like(theta_h), theta_d, phi_d)
+
+
+def _turned(v: Directions, angle: float) -> Directions:
+    """The directions seen from a surface turned about its normal."""
+    c, s = math.cos(angle), math.sin(angle)
+    return v @ np.array([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]])
+
+
+def _polar(v: Directions) -> tuple[Angle, Angle]:
+    x, y, z = np.moveaxis(v, -1, 0)
+    return np.arctan2(np.hypot(x, y), z), np.arctan2(y, x)
+
+
+def _u_theta(theta: Angle) -> np.ndarray:
+    return np.sqrt(theta * (2 / np.pi))
+
+
+def _u_phi(phi: Angle) -> np.ndarray:
+    return (phi + np.pi) / (2 * np.pi) % 1
