@@ -16,6 +16,8 @@ Values: TypeAlias = Float[np.ndarray, "... 3"]
 """BRDF values in 1/sr, one per channel (RGB); NaN where unmeasured."""
 Table: TypeAlias = Float32[np.ndarray, "3 ..."]
 """Samples of one material on a grid: channel, then the grid's axes."""
+Samples: TypeAlias = Float64[np.ndarray, "3 ..."]
+"""A table as a MERL file holds it: divided by the channel's scale, negative where unmeasured."""
 Mask: TypeAlias = Bool[np.ndarray, "..."]
 Rows: TypeAlias = Float32[np.ndarray, "3 n_materials n_cells"]
 """Samples of several materials on a range of cells."""

@@ -1,0 +1,23 @@
+"""File formats of BRDFs. A file is what its first bytes say, whatever its name."""
+
+from .find import Credit, Found, Skipped, find_brdfs, read_brdf, read_nbrdf_archive
+from .merl import MerlFile, encode_header, read_merl, write_merl, write_samples
+from .nbrdf import NeuralBrdf, read_nbrdf
+from .write import write_brdf
+
+__all__ = [
+    "Credit",
+    "Found",
+    "MerlFile",
+    "NeuralBrdf",
+    "Skipped",
+    "encode_header",
+    "find_brdfs",
+    "read_brdf",
+    "read_merl",
+    "read_nbrdf",
+    "read_nbrdf_archive",
+    "write_brdf",
+    "write_merl",
+    "write_samples",
+]

@@ -1,0 +1,72 @@
+"""What a file is, by its first bytes and its size; never by its suffix."""
+
+import struct
+
+HEAD_BYTES = 512
+"""How many first bytes tell what a file is."""
+
+HDF5 = b"\x89HDF\r\n\x1a\n"
+TENSOR_FILE = b"tensor_file\0"
+ZIP = (b"PK\x03\x04", b"PK\x05\x06")
+
+MERL_HEADER = struct.Struct("<3i")
+LARGEST_AXIS = 1 << 16
+"""Cells along one axis of a MERL table, at most, unless the file's size agrees. Four letters of text are more."""
+
+_KNOWN = {
+    HDF5: "is an HDF5 file",
+    TENSOR_FILE: "is a tensor file",
+    ZIP[0]: "is a zip",
+    ZIP[1]: "is an empty zip",
+    b"\x93NUMPY": "is a NumPy array",
+    b"\x89PNG": "is a picture",
+    b"\xff\xd8\xff": "is a picture",
+    b"%PDF": "is a PDF",
+    b"\x1f\x8b": "is compressed by gzip",
+}
+
+
+def kind(head: bytes, n_bytes: int) -> str | None:
+    """What a file with these first bytes claims to be: ``"merl"``, ``"nbrdf"``, ``"rgl"``, ``"zip"``, or None of these."""
+    if head.startswith(HDF5):
+        return "nbrdf"
+    if head.startswith(TENSOR_FILE):
+        return "rgl"
+    if head.startswith(ZIP):
+        return "zip"
+    return "merl" if _like_merl(head, n_bytes) else None
+
+
+def description(head: bytes) -> str | None:
+    """What these first bytes are, as the end of a sentence: "is text"; None where nobody could tell."""
+    if not head:
+        return "is empty"
+    for magic, what in _KNOWN.items():
+        if head.startswith(magic):
+            return what
+    return "is text" if _is_text(head) else None
+
+
+def merl_bytes(sizes: tuple[int, ...]) -> int:
+    """Bytes of a MERL file whose header states these sizes: three int32 and three channels of float64."""
+    n_theta_h, n_theta_d, n_phi_d = sizes
+    return MERL_HEADER.size + 24 * n_theta_h * n_theta_d * n_phi_d
+
+
+def _like_merl(head: bytes, n_bytes: int) -> bool:
+    if len(head) < MERL_HEADER.size:
+        return False
+    sizes = MERL_HEADER.unpack_from(head)
+    # A header of small numbers is taken for a MERL table even where it is wrong, so that the reader can say what is.
+    return all(abs(n) <= LARGEST_AXIS for n in sizes) or (
+        min(sizes) > 0 and merl_bytes(sizes) == n_bytes
+    )
+
+
+def _is_text(head: bytes) -> bool:
+    try:
+        # The cut may fall inside a character.
+        text = head.decode("utf-8", errors="strict" if len(head) < HEAD_BYTES else "ignore")
+    except UnicodeDecodeError:
+        return False
+    return all(c.isprintable() or c in "\t\r\n\f\ufeff" for c in text)

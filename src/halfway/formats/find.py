@@ -1,0 +1,217 @@
+"""Find the BRDFs in files, folders, zips and the package itself, without reading them yet."""
+
+import os
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, field
+from hashlib import sha256
+from pathlib import Path
+from typing import NamedTuple
+
+from ..brdf import Brdf
+from ..errors import FormatError
+from ..halfdiff import Grid
+from ..models import builtin
+from .content import HEAD_BYTES, description, kind
+from .merl import read_grid, read_merl_source
+from .nbrdf import NeuralBrdf, read_nbrdf_source, require_small
+from .sources import FileSource, MemberSource, Source, members
+
+LARGEST_MEMBER = 1_000_000_000
+"""Bytes of a zip's member that are read, at most; a table of the MERL database has 35 million."""
+
+_BUILTIN = "builtin:"
+_EXPECTED = "expected a MERL table, a neural BRDF (.h5) or an RGL material (.bsdf)"
+
+
+class Credit(NamedTuple):
+    """Where a material comes from, for people; empty where the file does not say."""
+
+    description: str = ""
+    source: str = ""
+    licence: str = ""
+
+
+@dataclass(frozen=True)
+class Found:
+    """A BRDF that is there to be loaded. Nothing but its header has been read."""
+
+    name: str
+    source: str
+    """Where it is: a path, ``archive.zip:member`` or ``builtin:NAME``."""
+    grid: Grid | None
+    """The grid of a table; None for what can be sampled on any."""
+    origin: Credit
+    _load: Callable[[], Brdf] = field(repr=False)
+    _sha256: Callable[[], str] = field(repr=False)
+
+    def load(self) -> Brdf:
+        """Read it.
+
+        Raises
+        ------
+        FormatError
+            When its samples are damaged; its header and size have been checked.
+        """
+        return self._load()
+
+    @property
+    def sha256(self) -> str:
+        """Checksum of the bytes that it is read from, hex digits; of the formula and its numbers if built in."""
+        return self._sha256()
+
+
+@dataclass(frozen=True)
+class Skipped:
+    """A file that is no BRDF."""
+
+    path: str
+    reason: str
+    """The end of a sentence that begins with the file: "is text"."""
+
+
+def read_brdf(path: str | Path) -> Brdf:
+    """The BRDF in a file, whatever its suffix: a MERL table or a neural BRDF.
+
+    Raises
+    ------
+    FormatError
+        When it is none, or is damaged.
+    """
+    return _inspect(FileSource(Path(path))).load()
+
+
+def find_brdfs(sources: Iterable[str | Path]) -> tuple[list[Found], list[Skipped]]:
+    """The BRDFs in files, folders (with their subfolders), zips and ``builtin:NAME``, and what else is in there.
+
+    Sources keep their order; what is in a folder or a zip is sorted by path. A BRDF is called by its file's name
+    without the suffix.
+
+    Raises
+    ------
+    FormatError
+        When a source does not exist, when one that is a single file is no BRDF, or when two BRDFs have the same name.
+    """
+    found: dict[str, Found] = {}
+    skipped: list[Skipped] = []
+    for source in sources:
+        for item in _items(source):
+            if isinstance(item, Skipped):
+                skipped.append(item)
+                continue
+            if item.name in found:
+                raise FormatError(
+                    f"{item.name} is there twice, as {found[item.name].source} and {item.source}: "
+                    "each material needs a name of its own. Rename one, or leave one out."
+                )
+            found[item.name] = item
+    return list(found.values()), skipped
+
+
+def read_nbrdf_archive(path: str | Path) -> dict[str, NeuralBrdf]:
+    """The neural BRDFs in a zip, by name, read in memory; `find_brdfs` says what else is in it, and why it is left out.
+
+    Raises
+    ------
+    FormatError
+        When the file is no zip, holds no neural BRDF, or two of the same name.
+    """
+    archive = FileSource(Path(path))
+    if _kind(archive) != "zip":
+        raise FormatError(f"{archive.label} is no zip: expected an archive of neural BRDFs (.h5).")
+    found, _ = find_brdfs([archive.path])
+    loaded = {item.name: item.load() for item in found if item.grid is None}
+    networks = {name: brdf for name, brdf in loaded.items() if isinstance(brdf, NeuralBrdf)}
+    if not networks:
+        raise FormatError(
+            f"{archive.label} holds no neural BRDF: expected .h5 files of Keras weights in it."
+        )
+    return networks
+
+
+def _items(source: str | Path) -> Iterator[Found | Skipped]:
+    if str(source).startswith(_BUILTIN):
+        yield from _built_in(str(source).removeprefix(_BUILTIN))
+        return
+    path = Path(source)
+    if path.is_dir():
+        yield from map(_file, _files(path))
+    elif _kind(file := FileSource(path)) == "zip":
+        yield from map(_member, members(path))
+    else:
+        yield _inspect(file)
+
+
+def _built_in(name: str) -> Iterator[Found]:
+    models = builtin(name)
+    credit = Credit(models.description, models.source, models.licence)
+    for material, model in models.models.items():
+        yield Found(
+            material,
+            f"{_BUILTIN}{name}",
+            None,
+            credit,
+            lambda model=model: model,
+            lambda model=model: sha256(model.fingerprint()).hexdigest(),
+        )
+
+
+def _files(folder: Path) -> list[Path]:
+    return sorted(Path(parent, file) for parent, _, files in os.walk(folder) for file in files)
+
+
+def _file(path: Path) -> Found | Skipped:
+    return _examine(str(path), path.name, lambda: FileSource(path))
+
+
+def _member(member: MemberSource) -> Found | Skipped:
+    return _examine(member.location, member.label, lambda: member)
+
+
+def _examine(location: str, label: str, open_source: Callable[[], Source]) -> Found | Skipped:
+    """What a file among others is; one that is no BRDF is no error there."""
+    if label.startswith("."):
+        return Skipped(location, "is hidden")
+    try:
+        return _inspect(open_source())
+    except FormatError as error:
+        what_is_wrong, _, _ = str(error).partition(": ")
+        return Skipped(location, what_is_wrong.removeprefix(label).strip())
+
+
+def _inspect(source: Source) -> Found:
+    """What a source is, from its first bytes and its size.
+
+    Raises
+    ------
+    FormatError
+        When it is no BRDF, or cannot be one because of its size.
+    """
+    if isinstance(source, MemberSource) and source.n_bytes > LARGEST_MEMBER:
+        raise FormatError(
+            f"{source.label} unpacks to {source.n_bytes:,} bytes: no more than {LARGEST_MEMBER:,} are read from a zip. "
+            "Unpack it first."
+        )
+    head = source.head(HEAD_BYTES)
+    match kind(head, source.n_bytes):
+        case "merl":
+            return _found(source, read_grid(source), read_merl_source)
+        case "nbrdf":
+            require_small(source)
+            return _found(source, None, read_nbrdf_source)
+        case "rgl":
+            raise FormatError(
+                f"{source.label} is an RGL material: this version reads MERL tables and neural BRDFs only."
+            )
+        case "zip":
+            raise FormatError(f"{source.label} is a zip: expected one BRDF. Name it as a source.")
+        case _:
+            what = description(head) or "is of no known format"
+            raise FormatError(f"{source.label} {what}: {_EXPECTED}.")
+
+
+def _kind(source: Source) -> str | None:
+    return kind(source.head(HEAD_BYTES), source.n_bytes)
+
+
+def _found(source: Source, grid: Grid | None, read: Callable[[Source], Brdf]) -> Found:
+    return Found(source.name, source.location, grid, Credit(), lambda: read(source), source.sha256)

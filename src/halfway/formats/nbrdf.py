@@ -1,0 +1,166 @@
+"""Neural BRDFs: a small network for each material, as the weights that Keras saves (HDF5).
+
+    x = (h, d)        h = (sin theta_h, 0, cos theta_h)
+                      d = (sin theta_d cos phi_d, sin theta_d sin phi_d, cos theta_d)
+    x1 = max(0, x W1 + b1)                    6 -> 21
+    x2 = max(0, x1 W2 + b2)                  21 -> 21
+    f_r = max(0, exp(x2 W3 + b3) - 1)        21 -> 3       linear RGB, 1/sr
+
+In the file the attribute ``layer_names`` lists the layers in order, and each layer's ``weight_names`` its kernel and
+its bias. The activations are not in the file.
+
+Source: A. Sztrajman, G. Rainer, T. Ritschel, T. Weyrich, "Neural BRDF Representation and Importance Sampling",
+Computer Graphics Forum 40(6), 2021, section 3.
+"""
+
+import io
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, ClassVar
+
+import h5py
+import numpy as np
+
+from .._types import Angle
+from ..brdf import IsotropicModel
+from ..errors import FormatError
+from .content import HDF5, description
+from .sources import FileSource, Source
+
+LARGEST_BYTES = 1_000_000
+"""A network takes 19 kB; a file of more than this is something else, and is not read."""
+
+_SHAPES = ((6, 21), (21,), (21, 21), (21,), (21, 3), (3,))
+
+
+@dataclass(frozen=True, eq=False)
+class NeuralBrdf(IsotropicModel):
+    """A material as a network of three layers; kernels ``W`` are (inputs, outputs), float32."""
+
+    W1: np.ndarray
+    b1: np.ndarray
+    W2: np.ndarray
+    b2: np.ndarray
+    W3: np.ndarray
+    b3: np.ndarray
+
+    formula: ClassVar[str] = "NBRDF 6-21-21-3"
+
+    def at(
+        self, theta_h: Angle, theta_d: Angle, phi_d: Angle, cos_i: Angle, cos_o: Angle
+    ) -> np.ndarray:
+        del cos_i, cos_o  # they follow from the angles
+        # The first layer is a sum of a part of theta_h and one of (theta_d, phi_d): on a grid each is small, and only
+        # their sum is large. From there on all is in place: fresh memory costs more than the arithmetic.
+        sin_d = np.sin(theta_d)
+        of_h = _product(self.W1[:3:2], np.sin(theta_h), np.cos(theta_h))
+        of_d = _product(self.W1[3:], sin_d * np.cos(phi_d), sin_d * np.sin(phi_d), np.cos(theta_d))
+        of_d += self.b1.reshape(-1, *[1] * theta_d.ndim)
+        x1 = of_h + of_d
+        shape = x1.shape[1:]
+        x1 = _relu(x1.reshape(len(x1), -1))
+        x2 = _relu(_layer(self.W2, self.b2, x1))
+        f = _layer(self.W3, self.b3, x2)
+        return _relu(np.expm1(f, out=f)).reshape(3, *shape)
+
+
+def read_nbrdf(source: str | Path | bytes, *, name: str = "") -> NeuralBrdf:
+    """The network in a Keras HDF5 file, given as a path or as its bytes; ``name`` is what messages call it.
+
+    Raises
+    ------
+    FormatError
+        When it is no HDF5 file, or its layers are not those of a neural BRDF.
+    """
+    if isinstance(source, bytes):
+        return _decode(source, name or "the network")
+    return read_nbrdf_source(FileSource(Path(source)))
+
+
+def read_nbrdf_source(source: Source) -> NeuralBrdf:
+    """The network in a file or in a member of a zip; raises as `read_nbrdf` does."""
+    require_small(source)
+    with source.open() as stream:
+        return _decode(stream.read(), source.label)
+
+
+def require_small(source: Source) -> None:
+    """Refuse what is too large to be a network, before it is read."""
+    if source.n_bytes > LARGEST_BYTES:
+        raise FormatError(
+            f"{source.label} is an HDF5 file of {source.n_bytes:,} bytes: a neural BRDF takes about 19,000, and "
+            f"no more than {LARGEST_BYTES:,} are read. It is something else."
+        )
+
+
+def _decode(content: bytes, label: str) -> NeuralBrdf:
+    if not content.startswith(HDF5):
+        what = description(content[:512]) or "is no HDF5 file"
+        raise FormatError(f"{label} {what}: expected the Keras weights of a neural BRDF (HDF5).")
+    try:
+        with h5py.File(io.BytesIO(content)) as file:
+            weights = [weight for layer in _layers(file, label) for weight in layer]
+    except (OSError, RuntimeError, ValueError, KeyError, TypeError, AttributeError) as error:
+        raise FormatError(
+            f"{label} is a damaged HDF5 file ({error}): expected the Keras weights of a neural BRDF. "
+            "Compare it with the original download."
+        ) from error
+    shapes = tuple(weight.shape for weight in weights)
+    if shapes != _SHAPES:
+        raise FormatError(
+            f"{label} has layers of shapes {_listed(shapes)}: a neural BRDF has {_listed(_SHAPES)}. "
+            "It is a network for something else."
+        )
+    if not all(np.isfinite(weight).all() for weight in weights):
+        raise FormatError(
+            f"{label} has weights that are not finite: expected finite numbers. It is damaged, or was not trained."
+        )
+    return NeuralBrdf(*weights)
+
+
+def _layers(file: Any, label: str) -> list[list[np.ndarray]]:
+    """The weights of each layer that has some, in the order in which the network applies them."""
+    if "layer_names" not in file.attrs:
+        raise FormatError(
+            f"{label} is an HDF5 file without layer_names: expected the Keras weights of a neural BRDF."
+        )
+    return [
+        [_weight(file[layer], weight, label) for weight in _names(file[layer], "weight_names")]
+        for layer in _names(file, "layer_names")
+    ]
+
+
+def _names(group: Any, attribute: str) -> list[str]:
+    names = np.asarray(group.attrs[attribute]).tolist()
+    return [name.decode() if isinstance(name, bytes) else str(name) for name in names]
+
+
+def _weight(layer: Any, name: str, label: str) -> np.ndarray:
+    weight = layer[name]
+    if weight.size > LARGEST_BYTES or weight.dtype.kind != "f":
+        raise FormatError(
+            f"{label} has a weight {name} of {weight.size:,} {weight.dtype} values: a neural BRDF has a few "
+            "hundred floats. It is a network for something else."
+        )
+    return np.asarray(weight, np.float32)
+
+
+def _listed(shapes: tuple[tuple[int, ...], ...]) -> str:
+    return ", ".join("x".join(map(str, shape)) for shape in shapes) or "none"
+
+
+def _product(W: np.ndarray, *inputs: Angle) -> np.ndarray:
+    """The part of ``x W`` that comes from these inputs, shape (outputs, ...)."""
+    x = np.stack(np.broadcast_arrays(*(x.astype(np.float32) for x in inputs)))
+    return np.tensordot(W.T, x, 1)
+
+
+def _layer(W: np.ndarray, b: np.ndarray, x: np.ndarray) -> np.ndarray:
+    """``x W + b`` with the features first: ``x`` has shape (inputs, n)."""
+    y = W.T @ x
+    y += b[:, None]
+    return y
+
+
+def _relu(x: np.ndarray) -> np.ndarray:
+    return np.maximum(x, 0, out=x)
