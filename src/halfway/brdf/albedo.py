@@ -28,7 +28,7 @@ def directional_albedo(
     ``(wi, wo) -> values`` may stand in for a BRDF.
     """
     evaluate = brdf.eval if isinstance(brdf, Brdf) else brdf
-    h, dh = _hemisphere(n_theta_h, n_phi_h)
+    h, dh = hemisphere(n_theta_h, n_phi_h)
     return np.stack([_albedo(evaluate, t, h, dh) for t in np.ravel(theta_i)]).reshape(
         *np.shape(theta_i), 3
     )
@@ -46,7 +46,7 @@ def _albedo(
     return np.einsum("n,nc->c", measure * wo[:, 2], np.nan_to_num(values))
 
 
-def _hemisphere(n_theta: int, n_phi: int) -> tuple[Directions, Angle]:
+def hemisphere(n_theta: int, n_phi: int) -> tuple[Directions, Angle]:
     """Nodes, shape (n, 3), and solid angles of a midpoint rule with square-root spaced theta."""
     edges = np.pi / 2 * (np.arange(n_theta + 1) / n_theta) ** 2
     theta = np.pi / 2 * ((np.arange(n_theta) + 0.5) / n_theta) ** 2

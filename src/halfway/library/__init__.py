@@ -1,5 +1,7 @@
 """Libraries: sets of materials on one grid, and their principal components."""
 
+from .basis import BasisImages
+from .basis_scene import JUDGING_SCENE, PACING_SCENE, BasisScene, SphereOperator
 from .library import Library
 from .opening import DEFAULT_LIBRARY, open_library
 from .pca import Pca
@@ -8,9 +10,14 @@ from .stored import StoredLibrary, build_library
 
 __all__ = [
     "DEFAULT_LIBRARY",
+    "JUDGING_SCENE",
+    "PACING_SCENE",
+    "BasisImages",
+    "BasisScene",
     "Library",
     "Pca",
     "ProceduralLibrary",
+    "SphereOperator",
     "StoredLibrary",
     "build_library",
     "open_library",
