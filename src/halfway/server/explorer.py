@@ -1,0 +1,156 @@
+"""What the explorer knows: a library, its spaces and pictures, and how to answer for them.
+
+No HTTP here. What is dear is computed once: the principal components and the thumbnails when the explorer is made, a
+space when it is first asked for. Tables are kept in bounded number.
+"""
+
+from collections import OrderedDict
+from collections.abc import Sequence
+from importlib.metadata import version
+from pathlib import Path
+from threading import Lock
+
+import numpy as np
+
+from ..errors import RecipeError, SpaceError
+from ..formats import MerlFile, encode_header
+from ..library import BasisImages, Library, Pca
+from ..render.scenes import SCENES
+from ..render.studio import studio
+from ..space import SPACES, Mixer, Recipe, Route, Space, make_space
+from ..tasks import Track, silent
+from .blocks import Block
+from .embedding import look_at
+from .schema import (
+    Axis,
+    LibrarySummary,
+    Material,
+    PointLight,
+    RecipeDocument,
+    RouteView,
+    SpaceSummary,
+    SpaceView,
+)
+
+N_TABLES = 16
+"""Tables kept ready to be sent, 11.7 MB each on the MERL grid."""
+MAX_STOPS = 32
+TEXTS = {
+    "anchored": "one recipe for all channels; keeps body colours on the straight way between them",
+    "paper": "one triangulation per channel, of its first three scores",
+    "linear": "the two end materials in plain proportion",
+}
+PACES = ("uniform",)
+EXPORTS = ("merl",)
+
+
+class Explorer:
+    """Answers for one library."""
+
+    def __init__(
+        self, library: Library, *, cache: Path | None = None, track: Track = silent
+    ) -> None:
+        self.library = library
+        self._cache = cache
+        self._pca = Pca.fit(library, cache=cache, track=track)
+        self._pictures = BasisImages.fit(library, cache=cache, track=track)
+        self._spaces: dict[str, Space] = {}
+        self._tables: OrderedDict[str, Block] = OrderedDict()
+        self._mixer = Mixer(library, n_rows=8)
+        self._lock = Lock()
+
+    def summary(self) -> LibrarySummary:
+        """What is being explored."""
+        library = self.library
+        colours = np.median(self._pictures.images, axis=1).clip(0).tolist()
+        return LibrarySummary(
+            version=version("halfway"),
+            name=library.name,
+            description=library.origin.description,
+            source=library.origin.source,
+            licence=library.origin.licence,
+            checksum=library.checksum,
+            grid=[Axis.model_validate(vars(axis)) for axis in library.grid.axes],
+            materials=[
+                Material(name=name, colour=(r, g, b))
+                for name, (r, g, b) in zip(library.names, colours, strict=True)
+            ],
+            spaces=[SpaceSummary(name=name, text=TEXTS.get(name, "")) for name in SPACES],
+            paces=list(PACES),
+            thumbnail_size=self._pictures.scene.size,
+            lights=[
+                PointLight(at=light.at, intensity=light.intensity)
+                for light in SCENES["spheres"].points
+            ],
+            exports=list(EXPORTS),
+        )
+
+    def space_view(self, name: str) -> SpaceView:
+        """The space called ``name``, to be looked at."""
+        return look_at(self._space(name), self._pca)
+
+    def route(self, space: str, stops: Sequence[str], pace: str) -> RouteView:
+        """The route through ``stops``."""
+        if len(stops) > MAX_STOPS:
+            raise SpaceError(
+                f"a route of {len(stops)} stops is too long: expected at most {MAX_STOPS}."
+            )
+        if pace not in PACES:
+            raise SpaceError(f"there is no pace {pace!r}: expected {' or '.join(PACES)}.")
+        route = Route.through(self._space(space), stops, pace=pace)
+        used = np.flatnonzero(route.weights.any(axis=(0, 1)))
+        r, g, b = route.weights[:, :, used].clip(0, 1).tolist()
+        return RouteView.model_validate(
+            {
+                "library": route.library,
+                "space": route.space,
+                "pace": route.pace,
+                "stops": list(stops),
+                "stop_t": [i / (len(stops) - 1) for i in range(len(stops))],
+                "knots": route.knots.tolist(),
+                "names": [route.names[i] for i in used],
+                "weights": {"r": r, "g": g, "b": b},
+            }
+        )
+
+    def table(self, name: str) -> Block:
+        """The table of one material."""
+        with self._lock:
+            if name in self._tables:
+                self._tables.move_to_end(name)
+                return self._tables[name]
+        block = Block.of_table(self.library.brdf(name))
+        with self._lock:
+            self._tables[name] = block
+            while len(self._tables) > N_TABLES:
+                self._tables.popitem(last=False)
+        return block
+
+    def thumbnails(self) -> Block:
+        """Pictures of all materials on a lit sphere, (N, size, size, RGBA), linear, black beside the sphere."""
+        mask = self._pictures.scene.mask()
+        pictures = np.zeros((len(self.library), *mask.shape, 3), np.float32)
+        pictures[:, mask] = self._pictures.images.clip(0)
+        return Block.of(pictures, np.broadcast_to(mask, pictures.shape[:-1]))
+
+    def environment(self) -> Block:
+        """The studio of soft boxes as a latitude-longitude picture; the top row looks up, the middle column to +y."""
+        picture = studio()
+        return Block.of(picture, np.ones(picture.shape[:-1]))
+
+    def merl_file(self, document: RecipeDocument) -> tuple[bytes, memoryview]:
+        """Header and body of the MERL file of a recipe: what ``halfway mix`` writes."""
+        recipe = Recipe.from_json(document.model_dump())
+        if recipe.library != self.library.name:
+            raise RecipeError(
+                f"the recipe is of the library {recipe.library!r}, and this explorer shows {self.library.name!r}: "
+                "open that library with `halfway view`."
+            )
+        merl = MerlFile.from_table(self._mixer.mix(recipe))
+        return encode_header(merl.grid), np.ascontiguousarray(merl.samples, "<f8").data.cast("B")
+
+    def _space(self, name: str) -> Space:
+        with self._lock:
+            if name not in self._spaces:
+                self._spaces[name] = make_space(name, self.library, cache=self._cache)
+            return self._spaces[name]

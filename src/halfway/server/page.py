@@ -1,0 +1,68 @@
+"""The page's files, read once: a request is answered from memory, and no path in it touches the disk.
+
+The wheel carries the built page. A checkout builds it when it is absent or older than its source; see `building`.
+"""
+
+import hashlib
+from collections.abc import Mapping
+from dataclasses import dataclass
+from importlib.resources import files
+from importlib.resources.abc import Traversable
+
+from ..errors import HalfwayError
+
+TYPES = {
+    ".css": "text/css; charset=utf-8",
+    ".exr": "image/x-exr",
+    ".html": "text/html; charset=utf-8",
+    ".js": "text/javascript; charset=utf-8",
+    ".json": "application/json",
+    ".svg": "image/svg+xml",
+}
+
+
+@dataclass(frozen=True)
+class Asset:
+    """One file of the page."""
+
+    body: bytes
+    media_type: str
+    etag: str
+
+
+@dataclass(frozen=True)
+class Page:
+    """The files of the page by their path; ``index.html`` is the page itself."""
+
+    assets: Mapping[str, Asset]
+
+    @classmethod
+    def load(cls) -> "Page":
+        """The page that came with the package.
+
+        Raises
+        ------
+        HalfwayError
+            When this installation has none.
+        """
+        root = files("halfway.server") / "page"
+        if not (root / "index.html").is_file():
+            raise HalfwayError(
+                "this installation of halfway has no explorer page: install a wheel, or in a checkout run "
+                "`npm ci` and `npm run build` in viewer/."
+            )
+        return cls(dict(_walk(root, "")))
+
+
+def _walk(folder: Traversable, prefix: str) -> list[tuple[str, Asset]]:
+    found: list[tuple[str, Asset]] = []
+    for entry in folder.iterdir():
+        if entry.is_dir():
+            found += _walk(entry, f"{prefix}{entry.name}/")
+            continue
+        suffix = "." + entry.name.rpartition(".")[2]
+        if suffix in TYPES:
+            body = entry.read_bytes()
+            etag = f'"{hashlib.sha256(body).hexdigest()[:16]}"'
+            found.append((prefix + entry.name, Asset(body, TYPES[suffix], etag)))
+    return found

@@ -1,0 +1,64 @@
+"""Serve the explorer on this machine until Ctrl-C."""
+
+import socket
+import sys
+import threading
+import webbrowser
+from pathlib import Path
+
+import uvicorn
+
+from ..errors import HalfwayError
+from ..library import Library
+from ..tasks import Track, silent
+from .app import create_app
+from .page import Page
+
+PORT = 8765
+
+
+def serve(
+    library: Library,
+    *,
+    port: int = PORT,
+    open_browser: bool = True,
+    cache: Path | None = None,
+    track: Track = silent,
+) -> None:
+    """Show ``library`` in the browser; returns when interrupted.
+
+    Loopback only. ``port`` 0, or one that is taken, gives a free one; the address is printed to stderr.
+
+    Raises
+    ------
+    HalfwayError
+        When this installation has no page, or no port can be had.
+    """
+    page = Page.load()
+    app = create_app(library, page=page, cache=cache, track=track)
+    with _listen(port) as listener:
+        address = f"http://127.0.0.1:{listener.getsockname()[1]}/"
+        print(f"{library.name}: {address} (Ctrl-C stops)", file=sys.stderr, flush=True)
+        if open_browser:
+            # The socket listens already: the browser waits until the first answer.
+            threading.Thread(target=webbrowser.open, args=[address], daemon=True).start()
+        config = uvicorn.Config(
+            app, log_level="warning", access_log=False, timeout_graceful_shutdown=1
+        )
+        uvicorn.Server(config).run(sockets=[listener])
+
+
+def _listen(port: int) -> socket.socket:
+    for candidate in dict.fromkeys((port, 0)):
+        listener = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
+        listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        try:
+            listener.bind(("127.0.0.1", candidate))
+        except OSError:
+            listener.close()
+            continue
+        listener.listen(128)
+        return listener
+    raise HalfwayError(
+        "the explorer found no free port on 127.0.0.1: close a program that listens there."
+    )

@@ -1,0 +1,140 @@
+"""What the page and the server say to each other, as JSON.
+
+One description for both sides: FastAPI checks and documents it, and ``viewer/scripts/make_types.py`` writes the
+TypeScript types from it. The words are those of the package: material, space, route, recipe, stop, knot.
+"""
+
+from typing import Annotated, Literal
+
+from pydantic import BaseModel, ConfigDict, Field
+
+Channel = Literal["r", "g", "b"]
+Vector = tuple[float, float, float]
+Weight = Annotated[float, Field(ge=0, le=1)]
+WeightsByName = dict[str, Weight]
+
+
+class Model(BaseModel):
+    """Finished when it exists; nothing unknown is taken."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+
+class Problem(Model):
+    """What went wrong, in one line that says what to do."""
+
+    error: str
+
+
+class Material(Model):
+    """One measured material of the library."""
+
+    name: str
+    colour: Vector
+    """Linear RGB of its picture on a lit sphere (median over the sphere), for labels."""
+
+
+class Axis(Model):
+    """One axis of the grid; see `halfway.halfdiff.Axis`."""
+
+    angle: str
+    size: int
+    stop: float
+    power: int
+    periodic: bool
+
+
+class SpaceSummary(Model):
+    """A space that routes can go through."""
+
+    name: str
+    text: str
+    """One line on what it is."""
+
+
+class PointLight(Model):
+    """A point light; world coordinates have z up, y away from the camera."""
+
+    at: Vector
+    intensity: float
+
+
+class LibrarySummary(Model):
+    """What is being explored."""
+
+    format: Literal[1] = 1
+    version: str
+    name: str
+    description: str
+    """One line; says "stand-in" where the materials are fits and not measurements."""
+    source: str
+    licence: str
+    checksum: str
+    grid: list[Axis]
+    materials: list[Material]
+    spaces: list[SpaceSummary]
+    paces: list[str]
+    thumbnail_size: int
+    """Pixels along each side of the pictures in ``/api/thumbnails``."""
+    lights: list[PointLight]
+    """Of the scene of three point lights."""
+    exports: list[str]
+    """Formats of ``/api/export/{format}``."""
+
+
+class Embedding(Model):
+    """The materials as points in three dimensions, to be looked at."""
+
+    channel: Channel | Literal["all"]
+    axes: list[str]
+    """What the three coordinates are."""
+    points: list[Vector]
+    """In the library's order, within [-1, 1]."""
+    edges: list[tuple[int, int]]
+    """Of the triangulation; empty where the space has none to show."""
+
+
+class SpaceView(Model):
+    """A space, to be looked at: one embedding, or one per channel."""
+
+    name: str
+    embeddings: list[Embedding]
+
+
+class WeightTable(Model):
+    """Weights at the knots of a route, per channel: ``[knot][name]``."""
+
+    r: list[list[Weight]]
+    g: list[list[Weight]]
+    b: list[list[Weight]]
+
+
+class RouteView(Model):
+    """A route, as weights at knots between which they are linear in t."""
+
+    library: str
+    space: str
+    pace: str
+    stops: list[str]
+    stop_t: list[float]
+    """Where each stop is on the route."""
+    knots: list[float]
+    """Ascending from 0 to 1."""
+    names: list[str]
+    """The materials that carry weight anywhere on the route."""
+    weights: WeightTable
+
+
+class ChannelWeights(Model):
+    """A recipe's weights where the channels differ."""
+
+    r: WeightsByName
+    g: WeightsByName
+    b: WeightsByName
+
+
+class RecipeDocument(Model):
+    """A recipe: barycentric weights over materials."""
+
+    library: str
+    weights: ChannelWeights | WeightsByName
