@@ -78,7 +78,7 @@ class TabularBrdf(Brdf):
         return result
 
     def fingerprint(self) -> bytes:
-        return hashlib.sha256(self.values).digest()
+        return hashlib.sha256(np.ascontiguousarray(self.values).data).digest()
 
     def sample_rows(self, grid: Grid, rows: slice) -> Table:
         return self.values[:, rows] if grid == self.grid else super().sample_rows(grid, rows)

@@ -3,6 +3,8 @@
 from .find import Credit, Found, Skipped, find_brdfs, read_brdf, read_nbrdf_archive
 from .merl import MerlFile, encode_header, read_merl, write_merl, write_samples
 from .nbrdf import NeuralBrdf, read_nbrdf
+from .rgl import RglBrdf
+from .rgl_reader import read_rgl
 from .write import write_brdf
 
 __all__ = [
@@ -10,6 +12,7 @@ __all__ = [
     "Found",
     "MerlFile",
     "NeuralBrdf",
+    "RglBrdf",
     "Skipped",
     "encode_header",
     "find_brdfs",
@@ -17,6 +20,7 @@ __all__ = [
     "read_merl",
     "read_nbrdf",
     "read_nbrdf_archive",
+    "read_rgl",
     "write_brdf",
     "write_merl",
     "write_samples",

@@ -2,7 +2,7 @@
 
 from .basis import BasisImages
 from .basis_scene import JUDGING_SCENE, PACING_SCENE, BasisScene, SphereOperator
-from .library import Library
+from .library import Library, Origin
 from .opening import DEFAULT_LIBRARY, open_library
 from .pca import Pca
 from .procedural import ProceduralLibrary
@@ -15,6 +15,7 @@ __all__ = [
     "BasisImages",
     "BasisScene",
     "Library",
+    "Origin",
     "Pca",
     "ProceduralLibrary",
     "SphereOperator",

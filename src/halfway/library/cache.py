@@ -22,7 +22,7 @@ def cached(
     try:
         with np.load(path, allow_pickle=False) as archive:
             return dict(archive)
-    except Exception:  # noqa: BLE001, S110 (absent or damaged in any way: compute)
+    except Exception:
         pass
     arrays = compute()
     try:

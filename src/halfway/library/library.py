@@ -40,11 +40,8 @@ class Library(ABC):
     names: tuple[str, ...]
     grid: Grid
     origin: Origin
-
-    @property
-    @abstractmethod
-    def checksum(self) -> str:
-        """Hex digits that change when any sample, name or the grid changes."""
+    checksum: str
+    """Hex digits that change when any sample, name or the grid changes."""
 
     @abstractmethod
     def row(self, i: int) -> Table:

@@ -1,8 +1,8 @@
 """From what a person writes to a library.
 
-    builtin:merl-abc        published fits that come with the package
-    folder.brdflib          a stored library
-    merl_nbrdf.zip          an archive of neural fits, decoded when asked for
+builtin:merl-abc        published fits that come with the package
+folder.brdflib          a stored library
+merl_nbrdf.zip          an archive of neural fits, decoded when asked for
 """
 
 import zipfile

@@ -55,7 +55,9 @@ class Pca:
     def fit(cls, library: Library, *, cache: Path | None = None, track: Track = silent) -> "Pca":
         """The components of ``library``; with a ``cache`` folder, kept there under the library's checksum."""
         if len(library) < 2:
-            raise LibraryError(f"{library.name} has {len(library)} material: a PCA takes at least 2.")
+            raise LibraryError(
+                f"{library.name} has {len(library)} material: a PCA takes at least 2."
+            )
         key = f"gram-1-{library.checksum}"
         gram = cached(cache, key, lambda: _gram(library, track)._asdict())
         return cls._of_gram(library.names, **gram)
@@ -141,9 +143,7 @@ def _gram_block(library: Library, columns: slice) -> _Gram:
     return gram
 
 
-def _combine(
-    library: Library, weights: Float64[np.ndarray, "3 N"], columns: slice
-) -> np.ndarray:
+def _combine(library: Library, weights: Float64[np.ndarray, "3 N"], columns: slice) -> np.ndarray:
     block = library.columns(columns)
     return np.stack([w @ samples for w, samples in zip(weights, block, strict=True)]).astype(
         np.float32

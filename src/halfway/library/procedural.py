@@ -7,7 +7,6 @@ because that is what a BRDF computes cheaply.
 import hashlib
 import math
 from collections.abc import Mapping
-from functools import cached_property
 
 import numpy as np
 
@@ -25,7 +24,7 @@ class ProceduralLibrary(Library):
     name : str
         What the library is called, as `open_library` understands it.
     brdfs : mapping of str to Brdf
-        The materials, by name; each has a ``fingerprint() -> bytes`` that changes with its parameters.
+        The materials, by name.
     """
 
     def __init__(
@@ -41,13 +40,10 @@ class ProceduralLibrary(Library):
         self.grid = grid
         self.origin = origin
         self._brdfs = tuple(brdfs.values())
-
-    @cached_property
-    def checksum(self) -> str:
         digest = hashlib.sha256(repr((self.names, self.grid)).encode())
         for brdf in self._brdfs:
             digest.update(brdf.fingerprint())
-        return digest.hexdigest()
+        self.checksum = digest.hexdigest()
 
     def row(self, i: int) -> Table:
         return self._brdfs[i].sample_rows(self.grid, slice(None)).reshape(3, -1)

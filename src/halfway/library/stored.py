@@ -16,7 +16,7 @@ import shutil
 from collections.abc import Generator, Sequence
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass
-from functools import cached_property, partial
+from functools import partial
 from pathlib import Path
 from typing import Any, BinaryIO, NamedTuple
 
@@ -70,12 +70,9 @@ class StoredLibrary(Library):
             ) from None
         self.name = path.name.removesuffix(SUFFIX)
         self.names = tuple(entry.name for entry in self.entries)
-        self._check_tables()
-
-    @cached_property
-    def checksum(self) -> str:
         parts = [(entry.name, entry.sha256) for entry in self.entries]
-        return hashlib.sha256(repr((parts, self.grid)).encode()).hexdigest()
+        self.checksum = hashlib.sha256(repr((parts, self.grid)).encode()).hexdigest()
+        self._check_tables()
 
     def row(self, i: int) -> Table:
         return np.array(self._tables()[:, i])
@@ -202,9 +199,7 @@ def _common_origin(found: Sequence[Found]) -> Origin:
     return Origin(description, source, licence)
 
 
-def _write_tables(
-    path: Path, found: Sequence[Found], grid: Grid, track: Track
-) -> list[Entry]:
+def _write_tables(path: Path, found: Sequence[Found], grid: Grid, track: Track) -> list[Entry]:
     shape = (3, len(found), grid.size)
     with path.open("wb") as file:
         header = {"descr": "<f4", "fortran_order": False, "shape": shape}
@@ -218,8 +213,8 @@ def _write_row(file: BinaryIO, start: int, found: Sequence[Found], grid: Grid, i
     item = found[i]
     row = _tabulated(item.load(), grid).reshape(3, -1)
     for channel, samples in enumerate(row):
-        os.pwrite(file.fileno(), samples, start + 4 * grid.size * (channel * len(found) + i))
-    return Entry(item.name, item.source, item.sha256, hashlib.sha256(row).hexdigest())
+        os.pwrite(file.fileno(), samples.data, start + 4 * grid.size * (channel * len(found) + i))
+    return Entry(item.name, item.source, item.sha256, hashlib.sha256(row.data).hexdigest())
 
 
 def _tabulated(brdf: Brdf, grid: Grid) -> Table:

@@ -1,5 +1,6 @@
 """Spaces, recipes, routes, and the mixing of recipes into tables."""
 
+from .making import SPACES, make_space
 from .mix import Mixer, mix
 from .recipe import Recipe
 from .route import Route, uniform
@@ -7,6 +8,7 @@ from .spaces import LinearSpace, PaperSpace, Space
 from .triangulation import Triangulation
 
 __all__ = [
+    "SPACES",
     "LinearSpace",
     "Mixer",
     "PaperSpace",
@@ -14,6 +16,7 @@ __all__ = [
     "Route",
     "Space",
     "Triangulation",
+    "make_space",
     "mix",
     "uniform",
 ]

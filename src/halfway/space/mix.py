@@ -77,10 +77,11 @@ def _weighted_sum(out: np.ndarray, rows: list[np.ndarray], weights: np.ndarray) 
     total = np.empty(len(out))
     for first in range(0, len(rows), ROWS_AT_ONCE):
         some = rows[first : first + ROWS_AT_ONCE]
-        # The last row again, at weight 0: NaN stays NaN and everything else stays itself.
         n_spare = ROWS_AT_ONCE - len(some)
+        # The last row again, at weight 0: NaN stays NaN and everything else stays itself.
+        a, b, c, d = some + some[-1:] * n_spare
         w = np.append(weights[first : first + ROWS_AT_ONCE], [0.0] * n_spare)
-        _add_four(total, *some, *[some[-1]] * n_spare, w, first > 0)
+        _add_four(total, a, b, c, d, w, first > 0)
     out[:] = total
 
 

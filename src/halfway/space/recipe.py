@@ -62,11 +62,18 @@ class Recipe:
         RecipeError
             When a weight is negative or no number, or a channel does not sum to 1.
         """
-        per_channel = [weights[c] for c in CHANNELS] if set(weights) == set(CHANNELS) else [weights] * 3
+        per_channel = (
+            [weights[c] for c in CHANNELS] if set(weights) == set(CHANNELS) else [weights] * 3
+        )
         names = tuple(dict.fromkeys(name for channel in per_channel for name in channel))
-        checked = [_checked(channel, f"channel {c}") for c, channel in zip(CHANNELS, per_channel, strict=True)]
+        checked = [
+            _checked(channel, f"channel {c}")
+            for c, channel in zip(CHANNELS, per_channel, strict=True)
+        ]
         return cls(
-            library, names, np.array([[channel.get(name, 0.0) for name in names] for channel in checked])
+            library,
+            names,
+            np.array([[channel.get(name, 0.0) for name in names] for channel in checked]),
         )
 
     @classmethod
@@ -85,7 +92,7 @@ class Recipe:
             name, equals, number = (piece.strip() for piece in part.partition("="))
             if not equals:
                 raise RecipeError(
-                    f"{part!r} has no weight: expected NAME=WEIGHT, such as \"gold-paint=0.7, teflon=0.3\"."
+                    f'{part!r} has no weight: expected NAME=WEIGHT, such as "gold-paint=0.7, teflon=0.3".'
                 )
             if name in weights:
                 raise RecipeError(f"{name} is given twice in {text!r}: write each material once.")
@@ -103,7 +110,7 @@ class Recipe:
             return cls.of(document.get("library", library), weights)
         except (KeyError, TypeError, AttributeError):
             raise RecipeError(
-                "this JSON is no recipe: expected {\"library\": NAME, \"weights\": {MATERIAL: WEIGHT, ...}}."
+                'this JSON is no recipe: expected {"library": NAME, "weights": {MATERIAL: WEIGHT, ...}}.'
             ) from None
 
     def to_json(self) -> dict[str, Any]:

@@ -6,6 +6,7 @@ With several stops each leg takes an equal share of t.
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -54,7 +55,7 @@ class Route:
         """
         _check_stops(space, stops)
         indices = [space.names.index(stop) for stop in stops]
-        legs = [space.leg(a, b) for a, b in zip(indices, indices[1:], strict=False)]
+        legs = [space.leg(a, b) for a, b in pairwise(indices)]
         # The last knot of a leg is the first of the next.
         knots = [(i + leg.knots[:-1]) / len(legs) for i, leg in enumerate(legs)]
         weights = [leg.weights[:, :-1] for leg in legs]
@@ -87,7 +88,9 @@ class Route:
         ts = np.asarray(t, np.float64)
         outside = ts[~((ts >= 0) & (ts <= 1))]
         if len(outside):
-            raise SpaceError(f"t = {outside[0]:g} is off the route: expected 0 (first stop) to 1 (last stop).")
+            raise SpaceError(
+                f"t = {outside[0]:g} is off the route: expected 0 (first stop) to 1 (last stop)."
+            )
         weights = np.moveaxis(self.at(ts), 1, 0)
         return [Recipe.from_dense(self.library, self.names, w) for w in weights]
 
@@ -114,8 +117,10 @@ def uniform(n_steps: int) -> list[float]:
 
 def _check_stops(space: Space, stops: Sequence[str]) -> None:
     if len(stops) < 2:
-        raise SpaceError(f"a route with {len(stops)} stop goes nowhere: name at least two materials.")
-    for stop, following in zip(stops, stops[1:], strict=False):
+        raise SpaceError(
+            f"a route with {len(stops)} stop goes nowhere: name at least two materials."
+        )
+    for stop, following in pairwise(stops):
         if stop == following:
             raise SpaceError(f"{stop} follows itself on this route: name each stop once in a row.")
     for stop in stops:

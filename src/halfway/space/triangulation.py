@@ -166,7 +166,11 @@ def _representatives(points: Points) -> Int[np.ndarray, " n_kept"]:
     """The first of each group of points that coincide."""
     n = len(points)
     radius = MERGE * np.ptp(points, axis=0).max(initial=0.0)
-    pairs = KDTree(points).query_pairs(radius, output_type="ndarray") if points.shape[1] else _all_pairs(n)
+    pairs = (
+        KDTree(points).query_pairs(radius, output_type="ndarray")
+        if points.shape[1]
+        else _all_pairs(n)
+    )
     if not len(pairs):
         return np.arange(n)
     graph = coo_array((np.ones(len(pairs)), pairs.T), shape=(n, n))
@@ -207,4 +211,6 @@ def _inside_interval(
     enter = np.where(moving & (slope > 0), zero, 0.0).max(axis=1)
     leave = np.where(moving & (slope < 0), zero, 1.0).min(axis=1)
     never = (~moving & (at_p < -INSIDE)).any(axis=1)
-    return np.where(never, 1.0, np.maximum(enter, 0.0)), np.where(never, 0.0, np.minimum(leave, 1.0))
+    return np.where(never, 1.0, np.maximum(enter, 0.0)), np.where(
+        never, 0.0, np.minimum(leave, 1.0)
+    )

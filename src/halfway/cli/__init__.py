@@ -1,0 +1,27 @@
+"""The command line: parse, one call into the package, print.
+
+Commands import what they use when they run, so that ``--help`` is immediate.
+"""
+
+import typer
+
+from . import console, demo, library, mix, render, report, route
+
+app = typer.Typer(
+    name="halfway",
+    help="New materials from measured ones.",
+    epilog="LIB is a library folder, an archive of neural fits, or builtin:merl-abc, the default. "
+    "--debug shows the traceback of an error.",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+    rich_markup_mode=None,
+)
+app.add_typer(library.app, name="library")
+for command in (demo.demo, report.report, route.route, mix.mix, render.render):
+    app.command()(command)
+
+
+def main() -> None:
+    """The ``halfway`` command."""
+    console.run(app)

@@ -1,0 +1,111 @@
+"""What a person writes on the command line, as the package's values."""
+
+import json
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..errors import HalfwayError
+
+if TYPE_CHECKING:
+    from ..library import Library
+    from ..space import Recipe
+
+DEFAULT_LIBRARY = "builtin:merl-abc"
+LONGEST_LIST = 1_000_000
+
+
+class ArgumentError(HalfwayError):
+    """An argument that says nothing the command understands."""
+
+
+def split_library(words: Sequence[str]) -> tuple[str, list[str]]:
+    """The library that the first word names, or the default; and the other words."""
+    first, *rest = words
+    return (first, rest) if is_library(first) else (DEFAULT_LIBRARY, list(words))
+
+
+def is_library(word: str) -> bool:
+    """Whether a word names a library rather than a material."""
+    path = Path(word)
+    return (
+        word.startswith("builtin:")
+        or path.suffix in (".brdflib", ".zip")
+        or (path / "library.json").exists()
+    )
+
+
+def parse_t(text: str) -> list[float]:
+    """The list of t written as ``0,0.25,1`` or as ranges ``start:stop:step`` with both ends."""
+    ts: list[float] = []
+    for part in text.split(","):
+        try:
+            numbers = [float(number) for number in part.split(":")]
+        except ValueError:
+            numbers = []
+        match numbers:
+            case [t]:
+                ts.append(t)
+            case [start, stop, step] if step > 0 and 0 <= (stop - start) / step < LONGEST_LIST:
+                n = round((stop - start) / step)
+                ts.extend(np.round(start + step * np.arange(n + 1), 12).tolist())
+            case _:
+                raise ArgumentError(
+                    f"--t {part!r} is no number and no range: expected such as 0,0.25,1 or 0.0001:1:0.0001."
+                )
+    return ts
+
+
+def read_json(path: Path) -> Any:
+    """The JSON document in a file."""
+    try:
+        return json.loads(path.read_text())
+    except ValueError as error:
+        raise ArgumentError(f"{path} is no JSON: {error}.") from None
+
+
+def to_recipe(words: Sequence[str]) -> tuple["Library", "Recipe"]:
+    """The recipe that ``[LIB] WHAT`` stands for, and its library.
+
+    WHAT is weights ("gold-paint=0.7, teflon=0.3"), a recipe's JSON file, one of a route's (``recipes.json:25``), or the
+    name of a material.
+    """
+    from ..library import open_library
+    from ..space import Recipe
+
+    where, rest = split_library(words)
+    if len(rest) != 1:
+        raise ArgumentError(
+            f'{len(rest)} recipes are given where one is expected: quote it, such as "gold-paint=0.7, teflon=0.3".'
+        )
+    (what,) = rest
+    document = _recipe_document(what)
+    if document is not None:
+        named = document.get("library") if len(words) == 1 else None
+        library = open_library(named or where)
+        return library, Recipe.from_json(document, library=library.name)
+    library = open_library(where)
+    text = what if "=" in what else f"{what}=1"
+    recipe = Recipe.from_text(library.name, text)
+    for name in recipe.names:
+        library.index(name)
+    return library, recipe
+
+
+def _recipe_document(what: str) -> dict[str, Any] | None:
+    """The JSON that ``FILE.json`` or ``FILE.json:INDEX`` stands for; None where it is no file."""
+    file, _, index = what.partition(".json:")
+    path = Path(f"{file}.json") if index else Path(what)
+    if path.suffix != ".json":
+        return None
+    document = read_json(path)
+    recipes = document.get("recipes") if isinstance(document, dict) else None
+    if recipes is None:
+        return document
+    if not index.isdecimal() or int(index) >= len(recipes):
+        raise ArgumentError(
+            f"{path} holds {len(recipes)} recipes: name one, {path}:0 to {path}:{len(recipes) - 1}."
+        )
+    return {"library": document.get("library"), **recipes[int(index)]}

@@ -1,0 +1,86 @@
+"""How the command line talks: data to stdout, talk and progress to stderr, a mistake in one line."""
+
+import sys
+import time
+import warnings
+from collections.abc import Callable, Iterable, Iterator
+from pathlib import Path
+from typing import TypeVar
+
+from ..errors import HalfwayError
+
+T = TypeVar("T")
+
+PATIENCE = 1.0
+"""Seconds before a progress bar appears."""
+
+
+def say(text: str) -> None:
+    """A line for the person, on stderr."""
+    print(text, file=sys.stderr)
+
+
+def track(items: Iterable[T], label: str, total: int) -> Iterable[T]:
+    """A progress bar over anything that takes more than a second; nothing where stderr is no terminal."""
+    return _bar(items, label, total) if sys.stderr.isatty() else items
+
+
+def _bar(items: Iterable[T], label: str, total: int) -> Iterator[T]:
+    from rich.console import Console
+    from rich.progress import (
+        BarColumn,
+        MofNCompleteColumn,
+        Progress,
+        TextColumn,
+        TimeRemainingColumn,
+    )
+
+    columns = TextColumn(label), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn()
+    progress = Progress(*columns, console=Console(stderr=True), transient=True)
+    task = progress.add_task(label, total=total)
+    start = time.monotonic()
+    try:
+        for item in items:
+            yield item
+            progress.advance(task)
+            if not progress.live.is_started and time.monotonic() - start > PATIENCE:
+                progress.start()
+    finally:
+        if progress.live.is_started:
+            progress.stop()
+
+
+def run(app: Callable[[], None]) -> None:
+    """Run the command; a mistake is one line and exit 1, and ``--debug`` anywhere shows where it came from."""
+    debug = "--debug" in sys.argv
+    sys.argv = [word for word in sys.argv if word != "--debug"]
+    warnings.showwarning = _note
+    try:
+        app()
+    except (HalfwayError, OSError) as error:
+        if debug:
+            raise
+        say(f"halfway: {_one_line(error)}")
+        sys.exit(1)
+    except KeyboardInterrupt:
+        say(
+            "halfway: interrupted; what was finished is kept, and the same command goes on from there."
+        )
+        sys.exit(130)
+
+
+def _one_line(error: Exception) -> str:
+    if isinstance(error, OSError) and error.filename is not None:
+        return f"{error.filename}: {error.strerror}."
+    return str(error)
+
+
+def _note(message: Warning | str, *_: object, **__: object) -> None:
+    say(f"note: {message}")
+
+
+def cache_folder() -> Path:
+    """Where small dear results are kept for this user."""
+    import platformdirs
+
+    return platformdirs.user_cache_path("halfway")

@@ -1,0 +1,66 @@
+"""``halfway demo``: the paper's main run on the built-in library, with pictures."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from .console import cache_folder, say, track
+
+STOPS = ("light-brown-fabric", "blue-fabric")
+SIZE = 256
+SPP = 48
+N_IN_STRIP = 7
+NEW_MATERIALS = (13, 25, 38)
+"""Of 51: about a quarter, half and three quarters of the way."""
+
+
+def demo(
+    output: Annotated[
+        Path, typer.Option("--output", "-o", metavar="DIR", help="The folder to write.")
+    ] = Path("demo"),
+) -> None:
+    """Run the paper's main experiment: light-brown-fabric to blue-fabric, 51 materials, with pictures.
+
+    Uses the built-in library, which needs no download: published analytic fits of the MERL materials.
+    """
+    from halfway.export import write_report, write_route
+    from halfway.formats import write_brdf
+    from halfway.library import DEFAULT_LIBRARY, Pca, open_library
+    from halfway.render import Renderer, pictures
+    from halfway.space import Mixer, Route, make_space, uniform
+
+    library = open_library(DEFAULT_LIBRARY)
+    say(f"Library {library.name}: {library.origin.description}.")
+    pca = Pca.fit(library, cache=cache_folder(), track=track)
+    write_report(output / "report", library, pca)
+    space = make_space("paper", library, cache=cache_folder(), track=track)
+    route = Route.through(space, STOPS)
+    ts = uniform(51)
+    write_route(output, route, ts, library, track=track)
+    mixer = Mixer(library)
+    tables = [mixer.mix(recipe) for recipe in (route.recipe(ts[i]) for i in NEW_MATERIALS)]
+    for i, table in zip(NEW_MATERIALS, tables, strict=True):
+        write_brdf(output / f"{i:03d}.binary", table)
+
+    renderer = Renderer("teapot", size=(SIZE, SIZE), spp=SPP)
+    recipes = route.recipes(ts)
+    images = [
+        renderer.picture(mixer.mix(recipe)) for recipe in track(recipes, "Pictures", len(recipes))
+    ]
+    shown = [round(i * 50 / (N_IN_STRIP - 1)) for i in range(N_IN_STRIP)]
+    strip = pictures.strip([images[i] for i in shown], labels=[f"t = {ts[i]:.2f}" for i in shown])
+    pictures.write(output / "strip.png", strip)
+    pictures.animate(output / "route.webp", images, fps=12)
+    say(f"""
+{output}/
+  strip.png          teapots from {STOPS[0]} to {STOPS[1]}
+  route.webp         all 51, animated
+  recipes.json       what each is mixed from
+  {", ".join(f"{i:03d}.binary" for i in NEW_MATERIALS)}   three new materials, MERL files
+  report/            eigenvalues and triangulation of the library
+
+Try next:
+  halfway render {output}/025.binary -o middle.png --size 768
+  halfway route cherry-235 tungsten-carbide -o metal --format merl
+  halfway library build FOLDER-OF-MERL-FILES -o mine.brdflib""")

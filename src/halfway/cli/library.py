@@ -1,0 +1,77 @@
+"""``halfway library``: build and look at libraries."""
+
+import json
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from .console import say, track
+
+app = typer.Typer(help="Build a library of materials, or see what is in one.", no_args_is_help=True)
+
+
+@app.command()
+def build(
+    sources: Annotated[
+        list[str], typer.Argument(metavar="SOURCE...", help="Files, folders, zips, builtin:NAME.")
+    ],
+    output: Annotated[
+        Path, typer.Option("--output", "-o", metavar="LIB", help="The folder to write.")
+    ],
+    licence: Annotated[
+        str, typer.Option(help="Licence of the measurements, kept in the library.")
+    ] = "",
+    source: Annotated[str, typer.Option(help="Where they come from, kept in the library.")] = "",
+) -> None:
+    """Tabulate every BRDF found in SOURCE into the library LIB.
+
+    \b
+    halfway library build ~/BRDFDatabase/brdfs -o merl.brdflib
+    halfway library build merl_nbrdf.zip -o neural.brdflib
+    """
+    from halfway.library import Origin, build_library
+
+    origin = Origin("built from files", source, licence) if licence or source else None
+    built = build_library(sources, output, origin=origin, track=track)
+    for item in built.skipped:
+        say(f"skipped {item.path}: {item.reason}")
+    say(
+        f"{output}: {len(built.library)} materials on {built.library.grid}"
+        + (f", {len(built.skipped)} skipped" if built.skipped else "")
+        + f". Next: halfway report {output} -o report"
+    )
+
+
+@app.command()
+def info(
+    lib: Annotated[str, typer.Argument(metavar="[LIB]")] = "builtin:merl-abc",
+    as_json: Annotated[bool, typer.Option("--json", help="For programs.")] = False,
+) -> None:
+    """Say what is in a library.
+
+    \b
+    halfway library info builtin:merl-abc
+    halfway library info merl.brdflib --json
+    """
+    from halfway.library import open_library
+
+    library = open_library(lib)
+    facts = {
+        "format": 1,
+        "library": library.name,
+        "grid": list(library.grid.shape),
+        "description": library.origin.description,
+        "source": library.origin.source,
+        "licence": library.origin.licence,
+        "checksum": library.checksum,
+        "materials": list(library.names),
+    }
+    if as_json:
+        print(json.dumps(facts, indent=1))
+        return
+    print(f"{library.name}: {len(library)} materials on {library.grid}")
+    for key in ("description", "source", "licence"):
+        if facts[key]:
+            print(f"{key}: {facts[key]}")
+    print("\n".join(f"  {name}" for name in library.names))

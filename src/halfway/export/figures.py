@@ -1,0 +1,114 @@
+"""The paper's Figures 2 and 3, as matplotlib figures."""
+
+from collections.abc import Callable
+from functools import wraps
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..files import replacing
+from ..library import Pca
+from ..space import Triangulation
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+COLOURS = {"red": "#c8442f", "green": "#3d8a4e", "blue": "#2f6dc8"}
+STYLE: Any = {
+    "font.size": 10,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.titlesize": 11,
+    "axes.titlelocation": "left",
+    "legend.frameon": False,
+    "svg.hashsalt": "halfway",
+}
+ZOOM = 5, 95
+"""Percentiles of the scores that the lower row of the scatter spans."""
+
+
+def _styled(draw: Callable[[Pca, str], "Figure"]) -> Callable[[Pca, str], "Figure"]:
+    @wraps(draw)
+    def styled(pca: Pca, label: str) -> "Figure":
+        import matplotlib as mpl
+
+        with mpl.rc_context(STYLE):
+            return draw(pca, label)
+
+    return styled
+
+
+@_styled
+def eigenvalues(pca: Pca, label: str) -> "Figure":
+    """Eigenvalues of the covariance (eq. 3) per channel, and the share of variance beyond k components (Fig. 3)."""
+    figure, (left, right) = _subplots(1, 2, (10, 3.8))
+    for values, (name, colour) in zip(pca.eigenvalues, COLOURS.items(), strict=True):
+        # The last eigenvalue of centred data is 0 but for rounding.
+        shown = values[:-1]
+        left.semilogy(
+            np.arange(1, len(shown) + 1), shown, ".-", color=colour, label=name, ms=4, lw=1
+        )
+        beyond = np.append(shown[::-1].cumsum()[::-1][1:], 0) / shown.sum()
+        right.semilogy(np.arange(1, len(shown)), beyond[:-1], ".-", color=colour, ms=4, lw=1)
+    left.set(xlabel="component", ylabel="eigenvalue (1/sr²)", title="Eigenvalues of the covariance")
+    right.set(
+        xlabel="components kept", ylabel="share of variance left", title="What k components leave"
+    )
+    left.legend()
+    _caption(figure, f"{label}: {len(pca.names)} materials")
+    return figure
+
+
+@_styled
+def triangulation(pca: Pca, label: str) -> "Figure":
+    """The first two scores of each channel and their Delaunay triangulation (Fig. 2).
+
+    A few mirror-like materials have scores far from the others'; the lower row shows where most are.
+    """
+    figure, rows = _subplots(2, 3, (12, 7.6))
+    colours = list(COLOURS.items())
+    for points, whole, zoomed, (name, colour) in zip(pca.scores(2), *rows, colours, strict=True):
+        simplices = Triangulation.of(points).simplices
+        for ax in (whole, zoomed):
+            if simplices.shape[1] == 3:
+                ax.triplot(*points.T, simplices, color=colour, lw=0.5, alpha=0.6)
+            ax.plot(*points.T, "o", color=colour, ms=3)
+            ax.ticklabel_format(style="sci", scilimits=(-2, 3))
+        whole.set_title(name)
+        (left, bottom), (right, top) = np.percentile(points, ZOOM, axis=0)
+        margins = 0.15 * (right - left), 0.15 * (top - bottom)
+        zoomed.set(
+            xlim=(left - margins[0], right + margins[0]),
+            ylim=(bottom - margins[1], top + margins[1]),
+        )
+        zoomed.set_xlabel("score 1 (1/sr)")
+    for ax, what in zip(
+        rows[:, 0], ("all materials", f"percentiles {ZOOM[0]} to {ZOOM[1]}"), strict=True
+    ):
+        ax.set_ylabel(f"score 2 (1/sr), {what}")
+    _caption(
+        figure,
+        f"{label}: {len(pca.names)} materials, Delaunay triangulation of two scores per channel",
+    )
+    return figure
+
+
+def write(stem: Path, figure: "Figure") -> None:
+    """Write a figure as ``stem.png`` and ``stem.svg``."""
+    for suffix in (".png", ".svg"):
+        with replacing(stem.with_suffix(suffix)) as temporary:
+            figure.savefig(
+                temporary, dpi=160, metadata={"Date": None} if suffix == ".svg" else None
+            )
+
+
+def _subplots(n_rows: int, n_columns: int, size: tuple[float, float]) -> tuple["Figure", Any]:
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=size, layout="constrained")
+    return figure, figure.subplots(n_rows, n_columns)
+
+
+def _caption(figure: "Figure", text: str) -> None:
+    figure.suptitle(text, x=0.01, ha="left", fontsize=9, color="#555")
