@@ -10,6 +10,7 @@ from numpy.testing import assert_allclose
 
 from halfway import Grid, tabulate
 from halfway.errors import FormatError
+from halfway.formats import find_brdfs, read_brdf
 from halfway.formats.rgl_reader import read_rgl
 from halfway.formats.rgl_warp import Warp, slices
 from halfway.formats.spectra import rgb_weights
@@ -161,6 +162,14 @@ def test_beyond_the_last_direction_the_material_stays_what_it_was(
     light, viewer = directions(rng, 100), viewers(rng, 100)
     expected = mitsuba_scalar(tmp_path / "clay_rgb.bsdf", light, viewer)
     assert_allclose(brdf.eval(light, viewer) * light[:, 2:], expected, rtol=1e-4, atol=1e-5)
+
+
+def test_a_file_of_the_database_is_found_under_its_name_there(tmp_path):
+    write_tensor_file(tmp_path / "clay_rgb.bsdf", fields())
+    (found,), _ = find_brdfs([tmp_path])
+    assert found.name == "clay"
+    assert_allclose(found.load().eval(UP, UP), 0.25)
+    assert_allclose(read_brdf(tmp_path / "clay_rgb.bsdf").eval(UP, UP), 0.25)
 
 
 # Tables

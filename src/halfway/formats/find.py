@@ -14,6 +14,7 @@ from ..models import builtin
 from .content import HEAD_BYTES, description, kind
 from .merl import read_grid, read_merl_source
 from .nbrdf import NeuralBrdf, read_nbrdf_source, require_small
+from .rgl_reader import material_name, read_rgl_source
 from .sources import FileSource, MemberSource, Source, members
 
 LARGEST_MEMBER = 1_000_000_000
@@ -70,7 +71,7 @@ class Skipped:
 
 
 def read_brdf(path: str | Path) -> Brdf:
-    """The BRDF in a file, whatever its suffix: a MERL table or a neural BRDF.
+    """The BRDF in a file, whatever its suffix: a MERL table, a neural BRDF or an RGL material.
 
     Raises
     ------
@@ -199,9 +200,7 @@ def _inspect(source: Source) -> Found:
             require_small(source)
             return _found(source, None, read_nbrdf_source)
         case "rgl":
-            raise FormatError(
-                f"{source.label} is an RGL material: this version reads MERL tables and neural BRDFs only."
-            )
+            return _found(source, None, read_rgl_source, name=material_name(source.label))
         case "zip":
             raise FormatError(f"{source.label} is a zip: expected one BRDF. Name it as a source.")
         case _:
@@ -213,5 +212,9 @@ def _kind(source: Source) -> str | None:
     return kind(source.head(HEAD_BYTES), source.n_bytes)
 
 
-def _found(source: Source, grid: Grid | None, read: Callable[[Source], Brdf]) -> Found:
-    return Found(source.name, source.location, grid, Credit(), lambda: read(source), source.sha256)
+def _found(
+    source: Source, grid: Grid | None, read: Callable[[Source], Brdf], *, name: str = ""
+) -> Found:
+    return Found(
+        name or source.name, source.location, grid, Credit(), lambda: read(source), source.sha256
+    )

@@ -13,20 +13,21 @@ Source: the readers (Mitsuba's `measured`, rgl-epfl/brdf-loader).
 """
 
 from collections.abc import Mapping
-from pathlib import Path
+from pathlib import Path, PurePath
 
 import numpy as np
 
 from ..errors import FormatError
 from .rgl import RglBrdf
 from .rgl_warp import Interpolant, Warp
+from .sources import FileSource, Source
 from .spectra import ILLUMINANT, rgb_weights
-from .tensor_file import read_tensor_file
+from .tensor_file import read_tensors
 
 _MAX_DESCRIPTION = 1000
 
 
-def read_rgl(path: Path) -> RglBrdf:
+def read_rgl(path: str | Path) -> RglBrdf:
     """The material of a `.bsdf` file, isotropic or anisotropic, RGB or spectral.
 
     Spectra become RGB once, on reading: every step of the evaluation is linear in them.
@@ -36,47 +37,64 @@ def read_rgl(path: Path) -> RglBrdf:
     FormatError
         When the file is no tensor file, lacks a field, or its fields do not fit together.
     """
-    fields = _Fields(read_tensor_file(path), path.name)
-    phi_i, theta_i = fields.angles("phi_i"), fields.angles("theta_i")
-    n_slices = len(phi_i) * len(theta_i)
-    colours, source = _colours(fields, n_slices, (len(phi_i), len(theta_i)))
-    vndf = fields.values("vndf", 4, leading=(len(phi_i), len(theta_i)), non_negative=True)
-    vndf = vndf.reshape(n_slices, *vndf.shape[2:])
+    return read_rgl_source(FileSource(Path(path)))
+
+
+def read_rgl_source(source: Source) -> RglBrdf:
+    """As `read_rgl`, from a file or a member of a zip."""
+    with source.open() as stream:
+        fields = read_tensors(stream, source.label)
+    return from_fields(fields, source.label)
+
+
+def from_fields(fields: Mapping[str, np.ndarray], label: str) -> RglBrdf:
+    """As `read_rgl`, from the file's fields; ``label`` is the file's name."""
+    checked = _Fields(fields, label)
+    phi_i, theta_i = checked.ascending("phi_i"), checked.ascending("theta_i")
+    leading = len(phi_i), len(theta_i)
+    colours, source = _colours(checked, leading)
+    vndf = checked.values("vndf", 4, leading=leading, non_negative=True)
+    vndf = vndf.reshape(-1, *vndf.shape[2:])
     if not (vndf.max(axis=(1, 2)) > 0).all():
         raise FormatError(
-            f"{path.name}: field 'vndf' is 0 everywhere for one of its {n_slices} directions: a density has an "
+            f"{label}: field 'vndf' is 0 everywhere for one of its {len(vndf)} directions: a density has an "
             "integral. It is damaged."
         )
     return RglBrdf(
-        name=path.stem.removesuffix("_rgb").removesuffix("_spec"),
-        description=fields.text("description"),
+        name=material_name(label),
+        description=checked.text("description"),
         source=source,
         phi_i=phi_i,
         theta_i=theta_i,
-        ndf=_interpolant(fields.values("ndf", 2, non_negative=True)),
-        sigma=_interpolant(fields.values("sigma", 2, non_negative=True)),
+        ndf=_interpolant(checked.values("ndf", 2, non_negative=True)),
+        sigma=_interpolant(checked.values("sigma", 2, non_negative=True)),
         vndf=Warp.of(vndf),
-        rgb=colours,
-        has_jacobian=bool(fields.required("jacobian", 1, "u1")[:1].any()),
+        rgb=Interpolant(colours),
+        has_jacobian=bool(checked.required("jacobian", 1, "u1").any()),
     )
 
 
-def _colours(fields: "_Fields", n_slices: int, leading: tuple[int, int]) -> tuple[Interpolant, str]:
+def material_name(file: str) -> str:
+    """The name in the database of the material in ``NAME_rgb.bsdf`` or ``NAME_spec.bsdf``."""
+    return PurePath(file).stem.removesuffix("_rgb").removesuffix("_spec")
+
+
+def _colours(fields: "_Fields", leading: tuple[int, int]) -> tuple[np.ndarray, str]:
+    """Linear RGB at the nodes, shape (n_slices, r, r, 3), and where it comes from."""
     if fields.has("rgb"):
-        rgb = fields.values("rgb", 5, leading=(*leading, 3))
-        return Interpolant(_channels_last(rgb, n_slices)), "RGB of the file"
-    wavelengths = fields.angles("wavelengths")
+        return _channels_last(fields.values("rgb", 5, leading=(*leading, 3))), "RGB of the file"
+    wavelengths = fields.ascending("wavelengths")
     spectra = fields.values("spectra", 5, leading=(*leading, len(wavelengths)))
     weights = rgb_weights(wavelengths).T.astype(np.float32)
     source = (
         f"{len(wavelengths)} wavelengths from {wavelengths[0]:.0f} to {wavelengths[-1]:.0f} nm, "
         f"CIE 1931 observer, illuminant {ILLUMINANT}"
     )
-    return Interpolant(_channels_last(spectra, n_slices) @ weights), source
+    return _channels_last(spectra) @ weights, source
 
 
-def _channels_last(values: np.ndarray, n_slices: int) -> np.ndarray:
-    slices_first = values.reshape(n_slices, *values.shape[2:])
+def _channels_last(values: np.ndarray) -> np.ndarray:
+    slices_first = values.reshape(-1, *values.shape[2:])
     return np.ascontiguousarray(np.moveaxis(slices_first, 1, -1))
 
 
@@ -134,7 +152,7 @@ class _Fields:
             )
         return values
 
-    def angles(self, name: str) -> np.ndarray:
+    def ascending(self, name: str) -> np.ndarray:
         """Finite ascending values, as float64."""
         values = self.required(name, 1, "f4").astype(np.float64)
         if not (np.isfinite(values).all() and (np.diff(values) > 0).all()):

@@ -13,6 +13,7 @@ Source: the reader that comes with the RGL database (rgl-epfl/brdf-loader).
 import math
 import struct
 from collections.abc import Mapping
+from io import BufferedIOBase
 from pathlib import Path
 from typing import NamedTuple
 
@@ -54,8 +55,16 @@ def read_tensor_file(path: Path) -> dict[str, np.ndarray]:
     FormatError
         When the file is no tensor file, is truncated, or states fields that it cannot hold.
     """
-    content = _read(path)
-    return {field.name: _array(content, field) for field in _fields(content, path.name)}
+    with path.open("rb") as file:
+        return read_tensors(file, path.name)
+
+
+def read_tensors(file: BufferedIOBase, label: str) -> dict[str, np.ndarray]:
+    """As `read_tensor_file`, from a stream; ``label`` is what messages call it."""
+    start = file.read(len(MAGIC))
+    # Of a file that is something else, only these few bytes are read.
+    content = start + file.read() if start == MAGIC else start
+    return {field.name: _array(content, field) for field in _fields(content, label)}
 
 
 def write_tensor_file(path: Path, fields: Mapping[str, np.ndarray]) -> None:
@@ -77,13 +86,6 @@ def write_tensor_file(path: Path, fields: Mapping[str, np.ndarray]) -> None:
         for name, array in arrays.items():
             file.write(b"\0" * (offsets[name] - file.tell()))
             file.write(array.data)
-
-
-def _read(path: Path) -> bytes:
-    """The file's bytes; of a file that is something else, only the first few."""
-    with path.open("rb") as file:
-        start = file.read(len(MAGIC))
-        return start + file.read() if start == MAGIC else start
 
 
 def _header(arrays: Mapping[str, np.ndarray], offsets: Mapping[str, int]) -> bytes:
