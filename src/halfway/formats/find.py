@@ -15,7 +15,7 @@ from .content import HEAD_BYTES, description, kind
 from .merl import read_grid, read_merl_source
 from .nbrdf import NeuralBrdf, read_nbrdf_source, require_small
 from .rgl_reader import material_name, read_rgl_source
-from .sources import FileSource, MemberSource, Source, members
+from .sources import FileSource, MemberSource, Source, by_name, members
 
 LARGEST_MEMBER = 1_000_000_000
 """Bytes of a zip's member that are read, at most; a table of the MERL database has 35 million."""
@@ -84,7 +84,7 @@ def read_brdf(path: str | Path) -> Brdf:
 def find_brdfs(sources: Iterable[str | Path]) -> tuple[list[Found], list[Skipped]]:
     """The BRDFs in files, folders (with their subfolders), zips and ``builtin:NAME``, and what else is in there.
 
-    Sources keep their order; what is in a folder or a zip is sorted by path. A BRDF is called by its file's name
+    Sources keep their order; what is in a folder or a zip is sorted by folder and name. A BRDF is called by its file's name
     without the suffix.
 
     Raises
@@ -157,7 +157,8 @@ def _built_in(name: str) -> Iterator[Found]:
 
 
 def _files(folder: Path) -> list[Path]:
-    return sorted(Path(parent, file) for parent, _, files in os.walk(folder) for file in files)
+    files = (Path(parent, name) for parent, _, names in os.walk(folder) for name in names)
+    return sorted(files, key=by_name)
 
 
 def _file(path: Path) -> Found | Skipped:

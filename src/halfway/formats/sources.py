@@ -9,7 +9,7 @@ from collections.abc import Generator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from io import BufferedIOBase, BufferedReader
-from pathlib import Path, PurePosixPath
+from pathlib import Path, PurePath, PurePosixPath
 from typing import cast
 
 from ..errors import FormatError
@@ -160,5 +160,11 @@ def members(archive: Path) -> list[MemberSource]:
         raise FormatError(
             f"{archive.name} is a damaged zip ({error}): compare it with the original download."
         ) from error
-    infos = sorted(opened.infolist(), key=lambda info: info.filename)
-    return [MemberSource(opened, info) for info in infos if not info.is_dir()]
+    infos = [info for info in opened.infolist() if not info.is_dir()]
+    infos.sort(key=lambda info: by_name(PurePosixPath(info.filename)))
+    return [MemberSource(opened, info) for info in infos]
+
+
+def by_name(path: PurePath) -> tuple[str, str, str]:
+    """Sorts files by folder, then by the name without the suffix, as materials are called."""
+    return str(path.parent), path.stem, path.suffix
