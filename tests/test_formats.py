@@ -26,7 +26,7 @@ def folder(tmp_path):
         "silver.h5": encode(weights()),
         "brdfs/gold.binary": merl(1500),
         "brdfs/bronze.dat": merl(3000),
-        "brdfs/README.txt": "Read me\u2026".encode(),
+        "brdfs/README.txt": ("R" + 600 * "é").encode(),
         "brdfs/.hidden.binary": merl(1),
         "brdfs/cut.binary": merl(1)[:92],
         "empty.binary": b"",

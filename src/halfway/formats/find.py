@@ -84,7 +84,7 @@ def read_brdf(path: str | Path) -> Brdf:
 def find_brdfs(sources: Iterable[str | Path]) -> tuple[list[Found], list[Skipped]]:
     """The BRDFs in files, folders (with their subfolders), zips and ``builtin:NAME``, and what else is in there.
 
-    Sources keep their order; what is in a folder or a zip is sorted by folder and name. A BRDF is called by its file's name
+    Sources keep their order; what is in a folder or a zip is sorted by path. A BRDF is called by its file's name
     without the suffix.
 
     Raises

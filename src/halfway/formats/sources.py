@@ -165,6 +165,6 @@ def members(archive: Path) -> list[MemberSource]:
     return [MemberSource(opened, info) for info in infos]
 
 
-def by_name(path: PurePath) -> tuple[str, str, str]:
-    """Sorts files by folder, then by the name without the suffix, as materials are called."""
-    return str(path.parent), path.stem, path.suffix
+def by_name(path: PurePath) -> tuple[tuple[str, ...], str]:
+    """Sorts files as the materials in them are called, by path without the suffix."""
+    return (*path.parent.parts, path.stem), path.suffix
