@@ -59,7 +59,7 @@ class TestAbc:
         assert_allclose(fresnel(np.array([1.0, 0.0]), 1.5), [0.04, 1.0], rtol=1e-14)
         # tan(Brewster) = n; there only the perpendicular part ((n^2 - 1)/(n^2 + 1))^2 is left, halved.
         brewster = 1 / np.hypot(1, 1.5)
-        assert_allclose(fresnel(np.array(brewster), 1.5), (1.25 / 3.25) ** 2 / 2, rtol=1e-13)
+        assert_allclose(fresnel(np.array([brewster]), 1.5), (1.25 / 3.25) ** 2 / 2, rtol=1e-13)
 
 
 class TestSgd:
@@ -118,7 +118,7 @@ def test_no_value_is_negative_or_infinite(material, i, o, phi):
 def test_past_the_grazing_angle_the_cosines_have_no_effect(material, i, o, h, d, phi):
     def at(*degrees: float) -> np.ndarray:
         cos_i, cos_o = np.cos(np.radians(degrees))
-        return model(material).at(*(np.array(x) for x in (h, d, phi, cos_i, cos_o)))
+        return model(material).at(*(np.array([x]) for x in (h, d, phi, cos_i, cos_o)))
 
     assert_array_equal(at(i, o), at(80, 80))
 
