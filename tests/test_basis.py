@@ -55,7 +55,7 @@ def images(library: ProceduralLibrary) -> BasisImages:
 
 def test_a_matte_sphere_under_one_light_is_the_cosine():
     """A white matte surface reflects E cos / pi; the pixel is the mean over its points."""
-    scene = dataclasses.replace(SMALL, lights=(Light((0, 0, 5.0), math.pi),), sky=NO_SKY)
+    scene = dataclasses.replace(SMALL, lights=(Light((0.0, 0.0, 5.0), math.pi),), sky=NO_SKY)
     row = SphereOperator.of(scene, GRID).picture(constant_row(1 / math.pi))
     x, y = np.meshgrid(*[(np.arange(16) + 0.5) / 8 - 1] * 2)
     outside = x**2 + y**2 >= 1
@@ -66,7 +66,7 @@ def test_a_matte_sphere_under_one_light_is_the_cosine():
 
 
 def test_the_first_row_is_on_top():
-    scene = dataclasses.replace(SMALL, lights=(Light((0, 1.0, 0), 1.0),), sky=NO_SKY)
+    scene = dataclasses.replace(SMALL, lights=(Light((0.0, 1.0, 0.0), 1.0),), sky=NO_SKY)
     picture = np.zeros((8, 8))
     picture[scene.mask()] = SphereOperator.of(scene, GRID).picture(constant_row(1.0))[:, 0]
     assert picture[:4].sum() > 0
@@ -104,7 +104,7 @@ def in_frame(normal: np.ndarray, direction: np.ndarray) -> np.ndarray:
 
 def test_under_an_even_sky_a_pixel_is_the_albedo():
     """Radiance 1 from everywhere: by reciprocity what comes back is the directional albedo towards the viewer."""
-    scene = BasisScene("even", (), Sky((0, 0, 1), 1.0, 1.0), size=9, n_points=1)
+    scene = BasisScene("even", (), Sky((0.0, 0.0, 1.0), 1.0, 1.0), size=9, n_points=1)
     brdf = tabulate(glossy(0.3), GRID)
     actual = SphereOperator.of(scene, GRID).picture(brdf.values.reshape(3, -1))
     position = (np.arange(9) + 0.5) / 4.5 - 1
@@ -117,7 +117,7 @@ def test_under_an_even_sky_a_pixel_is_the_albedo():
 
 
 def test_a_sky_brighter_above_lights_the_top():
-    scene = BasisScene("above", (), Sky((0, 1, 0), 1.0, 0.0), size=16, n_points=2)
+    scene = BasisScene("above", (), Sky((0.0, 1.0, 0.0), 1.0, 0.0), size=16, n_points=2)
     picture = np.zeros((16, 16))
     picture[scene.mask()] = SphereOperator.of(scene, GRID).picture(constant_row(1 / math.pi))[:, 0]
     # A matte surface sees (1 + 2/3 up . n) / 2 of it.
@@ -141,7 +141,7 @@ def test_the_two_scenes_share_no_light():
     assert PACING_SCENE.fingerprint() != JUDGING_SCENE.fingerprint()
 
 
-@settings(deadline=None, max_examples=25)
+@settings(deadline=None, max_examples=10)
 @given(st.lists(st.floats(0.01, 1), min_size=12, max_size=12))
 def test_the_picture_of_a_mix_is_the_mix_of_the_pictures(
     library: ProceduralLibrary, images: BasisImages, numbers: list[float]

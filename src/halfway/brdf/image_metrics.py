@@ -1,0 +1,159 @@
+"""How different two pictures look.
+
+Pictures are linear sRGB (D65), shape (..., n_pixels, 3), where 1 is the white of the display. They pass to the eye in
+three steps:
+
+    shown       what a display shows of them: a shoulder from .75 upwards that reaches 1 only at infinity
+    to_lab      CIELAB of that light, relative to the display's white
+    difference  of two pictures in CIELAB, the mean over their pixels
+
+The shoulder keeps a mirror-like peak, 40 times white and more, from ruling a mean, and still tells a strong peak from a
+stronger one; a clip would not. Everything is continuous in the picture, so it can pace a route.
+
+References: IEC 61966-2-1 (sRGB); CIE 15 (CIELAB and its difference, 1976); G. Sharma, W. Wu, E. N. Dalal, "The CIEDE2000
+Color-Difference Formula: Implementation Notes, Supplementary Test Data, and Mathematical Observations", Color Research
+and Application 30(1), 2005; P. Andersson et al., "FLIP: A Difference Evaluator for Alternating Images", HPG 2020.
+"""
+
+from importlib import import_module
+
+import numpy as np
+from jaxtyping import Float
+
+from ..errors import HalfwayError
+
+SHOULDER = 0.75
+"""Linear value above which highlights are compressed."""
+
+Pictures = Float[np.ndarray, "... n_pixels 3"]
+Lab = Float[np.ndarray, "... n_pixels 3"]
+"""L* in [0, 100], a*, b*."""
+Means = Float[np.ndarray, "..."] | np.floating
+"""Over the pixels of each picture."""
+
+_TO_XYZ = np.array([[0.4124, 0.3576, 0.1805], [0.2126, 0.7152, 0.0722], [0.0193, 0.1192, 0.9505]])
+# White is the display's own, so that equal R, G, B have a* = b* = 0.
+_TO_RELATIVE_XYZ = _TO_XYZ / _TO_XYZ.sum(axis=1, keepdims=True)
+_F_TO_LAB = np.array([[0.0, 500.0, 0.0], [116.0, -500.0, 200.0], [0.0, 0.0, -200.0]])
+
+
+def shown(rgb: Float[np.ndarray, "..."]) -> Float[np.ndarray, "..."]:
+    """What a display shows of linear values, in [0, 1].
+
+    Up to s = `SHOULDER` a value x is itself; above it becomes ``s + (1 - s) (1 - exp(-(x - s)/(1 - s)))``, which has the
+    same slope at s, and tends to 1.
+    """
+    room = rgb.dtype.type(1 - SHOULDER)
+    # The clipped values leave the other branch without overflow.
+    over = np.maximum(rgb - rgb.dtype.type(SHOULDER), 0)
+    return np.clip(rgb, 0, SHOULDER) - room * np.expm1(-over / room)
+
+
+def to_lab(rgb: Pictures) -> Lab:
+    """CIELAB of linear sRGB values in [0, 1], in their dtype: (0, 0, 0) is black, (100, 0, 0) the display's white."""
+    ratio = rgb @ _TO_RELATIVE_XYZ.T.astype(rgb.dtype)
+    delta = 6 / 29
+    f = np.where(ratio > delta**3, np.cbrt(ratio), ratio / (3 * delta**2) + 4 / 29)
+    lab = f.astype(rgb.dtype) @ _F_TO_LAB.astype(rgb.dtype)
+    lab[..., 0] -= 16
+    return lab
+
+
+def appearance(rgb: Pictures) -> Lab:
+    """CIELAB of what a display shows of pictures: where their differences are taken."""
+    return to_lab(shown(rgb))
+
+
+def cielab_difference(a: Lab, b: Lab) -> Means:
+    """Mean over pixels of the distance in CIELAB, Delta E*ab of 1976; 2.3 is just noticeable on patches."""
+    return np.sqrt(np.square(a - b).sum(axis=-1)).mean(axis=-1)
+
+
+def ciede2000_difference(a: Lab, b: Lab) -> Means:
+    """Mean over pixels of CIEDE2000, with kL = kC = kH = 1."""
+    return ciede2000(a, b).mean(axis=-1)
+
+
+def ciede2000(a: Lab, b: Lab) -> Float[np.ndarray, "... n_pixels"]:
+    """Delta E_00 of each pixel, with kL = kC = kH = 1 (Sharma et al. 2005, equations 2 to 22).
+
+    Hues are handled as unit vectors and half angles, where the published formula distinguishes cases: the difference of
+    hues ``2 sqrt(C1 C2) sin(dh/2)`` is ``(a1 b2 - a2 b1) / sqrt((C1 C2 + a1 a2 + b1 b2) / 2)``, and the mean hue points
+    along the sum of the unit vectors.
+    """
+    l1, a1, b1 = np.moveaxis(a, -1, 0)
+    l2, a2, b2 = np.moveaxis(b, -1, 0)
+    stretch = 1.5 - 0.5 * _saturation((np.hypot(a1, b1) + np.hypot(a2, b2)) / 2)
+    a1, a2 = stretch * a1, stretch * a2
+    c1, c2 = np.hypot(a1, b1), np.hypot(a2, b2)
+    l_mean, c_mean = (l1 + l2) / 2, (c1 + c2) / 2
+    h_mean = _mean_hue(a1, b1, c1, a2, b2, c2)
+
+    d_l, d_c, d_h = l2 - l1, c2 - c1, _hue_difference(a1, b1, a2, b2, c1 * c2)
+    s_l = 1 + 0.015 * (l_mean - 50) ** 2 / np.sqrt(20 + (l_mean - 50) ** 2)
+    s_c = 1 + 0.045 * c_mean
+    s_h = 1 + 0.015 * c_mean * _hue_weight(h_mean)
+    turn = np.radians(60) * np.exp(-(((np.degrees(h_mean) - 275) / 25) ** 2))
+    r_t = -2 * _saturation(c_mean) * np.sin(turn)
+    light, chroma, hue = d_l / s_l, d_c / s_c, d_h / s_h
+    return np.sqrt(np.maximum(light**2 + chroma**2 + hue**2 + r_t * chroma * hue, 0))
+
+
+def flip(a: Float[np.ndarray, "height width 3"], b: Float[np.ndarray, "height width 3"]) -> float:
+    """Mean FLIP of two pictures (Andersson et al. 2020), in [0, 1], as `shown` at 67 pixels per degree.
+
+    Raises
+    ------
+    HalfwayError
+        Where the package ``flip-evaluator`` is not installed.
+    """
+    try:
+        evaluate = import_module("flip_evaluator").evaluate
+    except ImportError:
+        raise HalfwayError(
+            "FLIP needs the package flip-evaluator, which is not installed: pip install flip-evaluator."
+        ) from None
+    pictures = (np.ascontiguousarray(_encoded(shown(x)), np.float32) for x in (a, b))
+    return float(evaluate(*pictures, "LDR", applyMagma=False)[1])
+
+
+def _saturation(chroma: np.ndarray) -> np.ndarray:
+    power = chroma**7
+    return np.sqrt(power / (power + 25**7))
+
+
+def _mean_hue(
+    a1: np.ndarray, b1: np.ndarray, c1: np.ndarray, a2: np.ndarray, b2: np.ndarray, c2: np.ndarray
+) -> np.ndarray:
+    """The hue between two, the short way round, in [0, 2 pi); where one has no hue, the other's."""
+    # Without a chroma the formula takes 0 for that hue and adds: the vector drops out and the other remains.
+    safe1, safe2 = (np.where(c == 0, 1, c) for c in (c1, c2))
+    x, y = a1 / safe1 + a2 / safe2, b1 / safe1 + b2 / safe2
+    return np.arctan2(y, x) % (2 * np.pi)
+
+
+def _hue_difference(
+    a1: np.ndarray, b1: np.ndarray, a2: np.ndarray, b2: np.ndarray, product: np.ndarray
+) -> np.ndarray:
+    along = a1 * a2 + b1 * b2
+    # Through differences of near values: float32 keeps its digits where two pictures hardly differ.
+    across = a1 * (b2 - b1) - b1 * (a2 - a1)
+    near = along > 0
+    small = np.abs(across) / np.sqrt(np.where(near, product + along, 1) * 2)
+    large = np.sqrt(np.where(near, 0, product - along) / 2)
+    return 2 * np.copysign(np.where(near, small, large), across)
+
+
+def _hue_weight(hue: np.ndarray) -> np.ndarray:
+    return (
+        1
+        - 0.17 * np.cos(hue - np.radians(30))
+        + 0.24 * np.cos(2 * hue)
+        + 0.32 * np.cos(3 * hue + np.radians(6))
+        - 0.20 * np.cos(4 * hue - np.radians(63))
+    )
+
+
+def _encoded(rgb: np.ndarray) -> np.ndarray:
+    """SRGB's transfer function, IEC 61966-2-1."""
+    return np.where(rgb <= 0.0031308, 12.92 * rgb, 1.055 * rgb ** (1 / 2.4) - 0.055)
