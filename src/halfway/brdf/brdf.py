@@ -84,4 +84,4 @@ class IsotropicModel(Brdf):
 
 def _cut(centres: HalfDiff, rows: slice) -> HalfDiff:
     """The angles on some rows of the first axis; those that do not vary along it stay as they are."""
-    return HalfDiff(*(angle if len(angle) == 1 else angle[rows] for angle in centres))
+    return HalfDiff(*(a if len(a) == 1 else a[rows] for a in map(np.asarray, centres)))
