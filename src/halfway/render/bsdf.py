@@ -1,0 +1,201 @@
+"""`halfway_table`: a measured table as a Mitsuba 3 BSDF, exactly as `TabularBrdf` evaluates it.
+
+Mitsuba calls the direction to the viewer ``si.wi`` and asks for the one to the light, ``wo``. In halfway ``wi`` points
+to the light and ``wo`` to the viewer: they are swapped in `TableBsdf` and nowhere else. As for every Mitsuba BSDF,
+``eval`` is f_r times the cosine of the light. Where no sample is measured nothing is reflected, and a negative value
+(of a truncated reconstruction) counts as 0.
+
+Angles come from the two directions without acos, so that float32 resolves the first cells of theta_h (0.01 degrees):
+
+    H = wi + wo, u = wi - wo            perpendicular, of length 2 cos(theta_d) and 2 sin(theta_d)
+    theta_h = atan2(|H_xy|, H_z)        theta_d = atan2(|u|, |H|)
+    phi_d   = atan2((H_x u_y - H_y u_x) |H|, (H_x u_x + H_y u_y) H_z - u_z |H_xy|^2)
+
+The class belongs to the Mitsuba variant that is set when this module is imported: `halfway.render.register` sees to it.
+"""
+
+from collections.abc import Sequence
+from itertools import product
+from pathlib import Path
+from typing import Any
+
+import drjit as dr
+import mitsuba as mi
+import numpy as np
+
+from ..brdf import TabularBrdf, tabulate
+from ..errors import RenderError
+from ..halfdiff import MERL, Axis, Grid
+from .sampling import HalfVectorSampling, buffer
+
+VARIANT = mi.variant()
+"""The Mitsuba variant that `TableBsdf` belongs to."""
+UNMEASURED = -1e30
+"""Stands for NaN in the renderer's buffer: NaN does not survive a compiler that assumes there is none."""
+
+
+class TableBsdf(mi.BSDF):
+    """A one-sided reflector whose values are those of a table.
+
+    Parameters (of the plugin ``halfway_table``)
+    ----------
+    filename : string
+        A file of any format that halfway reads.
+    values : tensor, float32, shape (3, n_theta_h, n_theta_d, n_phi_d)
+        In place of a file: f_r in 1/sr at the cell centres of a MERL grid, NaN where unmeasured.
+
+    Traversable: ``table``, the samples as a flat buffer of 4 floats a cell (see `pack`). After an update the
+    importance sampling follows the new table; nothing is compiled again.
+    """
+
+    def __init__(self, props: Any, brdf: TabularBrdf | None = None) -> None:
+        super().__init__(props)
+        brdf = brdf or _read(props)
+        self.grid = brdf.grid
+        self.table = buffer(pack(brdf))
+        self.sampling = HalfVectorSampling(self)
+        self.m_flags = mi.BSDFFlags.GlossyReflection | mi.BSDFFlags.FrontSide
+        self.m_components = [self.m_flags]
+
+    def eval(self, ctx: Any, si: Any, wo: Any, active: Any = True) -> Any:
+        wi, wo = wo, si.wi
+        active = active & self._enabled(ctx) & (wi.z > 0) & (wo.z > 0)
+        return _spectrum(self.values(wi, wo, active) * wi.z) & active
+
+    def pdf(self, ctx: Any, si: Any, wo: Any, active: Any = True) -> Any:
+        wi, wo = wo, si.wi
+        active = active & self._enabled(ctx) & (wi.z > 0) & (wo.z > 0)
+        return dr.select(active, self.sampling.pdf(wi, wo, active), 0)
+
+    def eval_pdf(self, ctx: Any, si: Any, wo: Any, active: Any = True) -> tuple[Any, Any]:
+        return self.eval(ctx, si, wo, active), self.pdf(ctx, si, wo, active)
+
+    def sample(
+        self, ctx: Any, si: Any, sample1: Any, sample2: Any, active: Any = True
+    ) -> tuple[Any, Any]:
+        active = active & self._enabled(ctx) & (si.wi.z > 0)
+        bs: Any = dr.zeros(mi.BSDFSample3f)
+        bs.wo = self.sampling.sample(si.wi, sample1, sample2, active)
+        bs.pdf = self.pdf(ctx, si, bs.wo, active)
+        bs.eta = 1.0
+        bs.sampled_type = mi.UInt32(+mi.BSDFFlags.GlossyReflection)
+        bs.sampled_component = mi.UInt32(0)
+        active = active & (bs.pdf > 0)
+        weight = self.eval(ctx, si, bs.wo, active) / bs.pdf
+        return bs, weight & active
+
+    def eval_diffuse_reflectance(self, si: Any, active: Any = True) -> Any:  # noqa: ARG002
+        """The albedo guide of a denoiser: the material's mean reflectance."""
+        return _spectrum(self.sampling.reflectance) & active
+
+    def values(self, wi: Any, wo: Any, active: Any) -> Any:
+        """f_r in 1/sr of pairs above the horizon: `TabularBrdf.eval`, never negative."""
+        corners = multilinear(self.grid, wi, wo)
+        total, measured = mi.Color3f(0), mi.Color3f(0)
+        for cell, weight in corners:
+            sample = dr.gather(mi.Vector4f, self.table, cell, active)
+            sample = mi.Color3f(sample.x, sample.y, sample.z)
+            weights = dr.select(sample > UNMEASURED / 2, weight, 0)
+            total = dr.fma(weights, sample, total)
+            measured += weights
+        return dr.maximum(dr.select(measured > 0, total / measured, 0), 0)
+
+    def traverse(self, cb: Any) -> None:
+        cb.put("table", self.table, mi.ParamFlags.Differentiable)
+
+    def parameters_changed(self, keys: Sequence[str] = ()) -> None:
+        if not keys or "table" in keys:
+            if dr.width(self.table) != 4 * self.grid.size:
+                raise RenderError(
+                    f"The new table has {dr.width(self.table)} floats: a {self.grid} grid takes {4 * self.grid.size}."
+                )
+            self.sampling = HalfVectorSampling(self)
+
+    def _enabled(self, ctx: Any) -> bool:
+        return ctx.is_enabled(mi.BSDFFlags.GlossyReflection)
+
+    def to_string(self) -> str:
+        return f"TableBsdf[{self.grid}]"
+
+
+def pack(brdf: TabularBrdf) -> np.ndarray:
+    """The samples as the renderer reads them, float32, shape (4 * grid.size,): r, g, b, 0 of each cell."""
+    cells = np.zeros((brdf.grid.size, 4), np.float32)
+    for channel, values in enumerate(brdf.values.reshape(3, -1)):
+        cells[:, channel] = np.where(np.isnan(values), np.float32(UNMEASURED), values)
+    return cells.ravel()
+
+
+def multilinear(grid: Grid, wi: Any, wo: Any) -> list[tuple[Any, Any]]:
+    """Cells and weights of `Grid.multilinear`, for Dr.Jit's vectors."""
+    angles = half_diff(wi, wo)
+    sides = [_neighbours(axis, angles[axis.angle]) for axis in grid.axes]
+    corners: list[tuple[Any, Any]] = []
+    for corner in product(*sides):
+        cell, weight = mi.UInt32(0), mi.Float(1)
+        for axis, (index, fraction) in zip(grid.axes, corner, strict=True):
+            cell = cell * axis.size + mi.UInt32(index)
+            weight = weight * fraction
+        corners.append((cell, weight))
+    return corners
+
+
+def half_diff(wi: Any, wo: Any) -> dict[str, Any]:
+    """`to_half_diff` for Dr.Jit's vectors; the formulas are at the top of the module."""
+    H, u = wi + wo, wi - wo
+    across2 = dr.square(H.x) + dr.square(H.y)
+    across, length = dr.sqrt(across2), dr.norm(H)
+    # On the normal itself phi_h is 0, as atan2(0, 0) is.
+    x = dr.select(across > 0, H.x / across, 1)
+    y = dr.select(across > 0, H.y / across, 0)
+    return {
+        "theta_h": dr.atan2(across, H.z),
+        "phi_h": dr.atan2(y, x),
+        "theta_d": dr.atan2(dr.norm(u), length),
+        "phi_d": dr.atan2((x * u.y - y * u.x) * length, (x * u.x + y * u.y) * H.z - u.z * across),
+    }
+
+
+def to_position(axis: Axis, angle: Any) -> Any:
+    """`Axis.to_position` for Dr.Jit's floats."""
+    share = angle * (1 / axis.stop)
+    if axis.periodic:
+        return axis.size * (share - dr.floor(share))
+    share = dr.clip(share, 0, 1)
+    if axis.power == 2:
+        share = dr.sqrt(share)
+    elif axis.power != 1:
+        share = share ** (1 / axis.power)
+    return axis.size * share
+
+
+def _neighbours(axis: Axis, angle: Any) -> list[tuple[Any, Any]]:
+    position = to_position(axis, angle) - 0.5
+    floor = dr.floor(position)
+    lower, fraction = mi.Int32(floor), position - floor
+    upper = lower + 1
+    if axis.periodic:
+        # A share that rounds to 1 gives a position of size - 1/2, whose lower cell is the last.
+        lower = dr.select(lower < 0, axis.size - 1, lower)
+        upper = dr.select(upper >= axis.size, 0, upper)
+    else:
+        lower, upper = dr.maximum(lower, 0), dr.minimum(upper, axis.size - 1)
+    return [(lower, 1 - fraction), (upper, fraction)]
+
+
+def _spectrum(color: Any) -> Any:
+    return mi.Color1f(mi.luminance(color)) if mi.is_monochromatic else color
+
+
+def _read(props: Any) -> TabularBrdf:
+    if "values" in props:
+        values = np.array(props["values"], np.float32)
+        return TabularBrdf(values, Grid.merl(*values.shape[1:]), name=props.id())
+    if "filename" in props:
+        from ..formats import read_brdf
+
+        resolver: Any = mi.file_resolver()  # pyright: ignore[reportCallIssue]
+        path = Path(str(resolver.resolve(props["filename"])))
+        brdf = read_brdf(path)
+        return brdf if isinstance(brdf, TabularBrdf) else tabulate(brdf, MERL, name=path.stem)
+    raise RenderError("A halfway_table has neither a filename nor values: expected one of them.")

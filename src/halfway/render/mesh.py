@@ -1,0 +1,91 @@
+"""Triangle meshes as plain arrays."""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from .scenes import Placed
+
+
+class Mesh(NamedTuple):
+    """Triangles whose corners go counter-clockwise seen from outside."""
+
+    positions: np.ndarray  # (n_vertices, 3), float32
+    normals: np.ndarray  # (n_vertices, 3), float32, unit, outward
+    faces: np.ndarray  # (n_faces, 3), uint32
+
+    @classmethod
+    def of(cls, positions: np.ndarray, normals: np.ndarray, faces: np.ndarray) -> "Mesh":
+        """A mesh of arrays of any real and integer types."""
+        return cls(
+            positions.astype(np.float32), normals.astype(np.float32), faces.astype(np.uint32)
+        )
+
+
+def joined(meshes: Sequence[Mesh]) -> Mesh:
+    """All the triangles of several meshes."""
+    starts = np.cumsum([0, *(len(mesh.positions) for mesh in meshes[:-1])])
+    return Mesh.of(
+        np.concatenate([mesh.positions for mesh in meshes]),
+        np.concatenate([mesh.normals for mesh in meshes]),
+        np.concatenate([mesh.faces + start for mesh, start in zip(meshes, starts, strict=True)]),
+    )
+
+
+def placed(mesh: Mesh, place: Placed) -> Mesh:
+    """The mesh where a scene wants it: scaled to its height, turned, the middle of its foot at its place."""
+    low, high = mesh.positions.min(axis=0), mesh.positions.max(axis=0)
+    foot = np.array([*(low + high)[:2] / 2, low[2]])
+    turn = np.radians(place.turn_degrees)
+    c, s = np.cos(turn), np.sin(turn)
+    rotation = np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]])
+    scale = place.height / (high[2] - low[2])
+    positions = (mesh.positions - foot) * scale @ rotation.T + np.array(place.at)
+    return Mesh.of(positions, mesh.normals @ rotation.T, mesh.faces)
+
+
+def sweep(
+    *,
+    width: float = 60.0,
+    front: float = 40.0,
+    wall: float = 9.0,
+    radius: float = 5.0,
+    height: float = 40.0,
+) -> Mesh:
+    """A photographer's sweep of paper: a floor that curves up into a wall at y = ``wall``."""
+    turn = np.linspace(0, np.pi / 2, 33)
+    y = np.concatenate([[-front], wall - radius + radius * np.sin(turn), [wall]])
+    z = np.concatenate([[0], radius - radius * np.cos(turn), [height]])
+    ny = np.concatenate([[0], -np.sin(turn), [-1]])
+    nz = np.concatenate([[1], np.cos(turn), [0]])
+    n = len(y)
+    sides = (-width / 2, width / 2)
+    positions = np.concatenate([np.stack([np.full(n, x), y, z], axis=-1) for x in sides])
+    normals = np.tile(np.stack([np.zeros(n), ny, nz], axis=-1), (2, 1))
+    i = np.arange(n - 1)
+    faces = np.concatenate(
+        [np.stack([i, i + n, i + n + 1], axis=-1), np.stack([i, i + n + 1, i + 1], axis=-1)]
+    )
+    return Mesh.of(positions, normals, faces)
+
+
+def outward(positions: np.ndarray, normals: np.ndarray, faces: np.ndarray) -> Mesh:
+    """A mesh of a file with y up, turned to z up; faces turned so that the volume inside is positive.
+
+    Normals that are missing (of another shape than the positions) are made from the faces, weighted by area.
+    """
+    positions = positions[:, [0, 2, 1]] * np.array([1, -1, 1])
+    a, b, c = np.moveaxis(positions[faces].astype(float), 1, 0)
+    across = np.cross(b - a, c - a)
+    inside_out = np.einsum("ij,ij->", a - positions.mean(axis=0), across) < 0
+    if inside_out:
+        faces, across = faces[:, ::-1], -across
+    if normals.shape == positions.shape:
+        normals = normals[:, [0, 2, 1]] * np.array([1, -1, 1]) * (-1 if inside_out else 1)
+    else:
+        normals = np.zeros(positions.shape)
+        for corner in range(3):
+            np.add.at(normals, faces[:, corner], across)
+    length = np.linalg.norm(normals, axis=1, keepdims=True)
+    return Mesh.of(positions, normals / np.where(length > 0, length, 1), faces)

@@ -1,0 +1,146 @@
+"""Pictures as files: tone mapping, strips, contact sheets, animations.
+
+A picture is linear RGB radiance, float32, shape (height, width, 3). What a screen shows is its sRGB coding (IEC
+61966-2-1) after an exposure in stops, clipped at white; nothing else is done to the colours:
+
+    v = 2^exposure x,        s = 12.92 v  where v <= .0031308,  else 1.055 v^(1/2.4) - .055
+
+8-bit pictures (uint8, the same shape) are taken as already coded.
+"""
+
+from collections.abc import Iterable, Sequence
+from itertools import zip_longest
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from PIL import Image, ImageDraw, ImageFont
+
+from ..errors import OutputError
+from ..files import replacing
+
+PAPER = 255
+INK = (70, 70, 70)
+WRITTEN = (".png", ".jpg", ".jpeg", ".webp", ".exr")
+ANIMATED = (".webp", ".gif")
+
+
+def to_srgb(image: np.ndarray, *, exposure: float = 0.0) -> np.ndarray:
+    """The 8-bit sRGB coding of a linear picture, ``exposure`` stops brighter."""
+    if image.dtype == np.uint8:
+        return image
+    v = np.clip(image * np.float32(2.0**exposure), 0, 1)
+    coded = np.where(v <= 0.0031308, 12.92 * v, 1.055 * v ** (1 / 2.4) - 0.055)
+    return np.round(255 * coded).astype(np.uint8)
+
+
+def write(path: Path | str, image: np.ndarray, *, exposure: float = 0.0) -> None:
+    """Write a picture; the suffix says how. ``.exr`` keeps linear radiance (float32) and takes no exposure.
+
+    Raises
+    ------
+    OutputError
+        When the suffix is of no known kind, or the file cannot be written.
+    """
+    path = Path(path)
+    _require_suffix(path, WRITTEN)
+    with replacing(path) as temporary:
+        if path.suffix.lower() == ".exr":
+            _write_exr(temporary, image)
+        else:
+            Image.fromarray(to_srgb(image, exposure=exposure)).save(temporary, quality=92)
+
+
+def strip(
+    images: Sequence[np.ndarray], *, labels: Sequence[str] = (), exposure: float = 0.0
+) -> np.ndarray:
+    """Pictures side by side in one row, 8-bit, each with its label under it."""
+    return sheet(images, labels=labels, columns=len(images), exposure=exposure)
+
+
+def sheet(
+    images: Sequence[np.ndarray],
+    *,
+    labels: Sequence[str] = (),
+    columns: int | None = None,
+    exposure: float = 0.0,
+) -> np.ndarray:
+    """Pictures row by row, 8-bit, each with its label under it; about as wide as high unless ``columns`` says."""
+    if not images:
+        raise OutputError("A contact sheet of no pictures: expected one or more.")
+    columns = columns or max(1, round(len(images) ** 0.5))
+    tiles = [
+        _labelled(to_srgb(image, exposure=exposure), label if labels else None)
+        for image, label in zip_longest(images, labels, fillvalue="")
+        if isinstance(image, np.ndarray)
+    ]
+    gap = max(2, tiles[0].shape[1] // 64)
+    rows = [tiles[i : i + columns] for i in range(0, len(tiles), columns)]
+    rows[-1] += [np.full_like(tiles[0], PAPER)] * (len(rows[0]) - len(rows[-1]))
+    return _spaced([_spaced(row, gap, axis=1) for row in rows], gap, axis=0)
+
+
+def animate(
+    path: Path | str, images: Iterable[np.ndarray], *, fps: float = 12, exposure: float = 0.0
+) -> None:
+    """Write pictures as an animation that repeats: ``.webp`` or ``.gif``.
+
+    Raises
+    ------
+    OutputError
+        When the suffix is of no known kind, there are no pictures, or the file cannot be written.
+    """
+    path = Path(path)
+    _require_suffix(path, ANIMATED)
+    frames = [Image.fromarray(to_srgb(image, exposure=exposure)) for image in images]
+    if not frames:
+        raise OutputError(f"{path} would be an animation of no pictures: expected one or more.")
+    options: dict[str, Any] = {"quality": 88, "method": 4} if path.suffix.lower() == ".webp" else {}
+    with replacing(path) as temporary:
+        frames[0].save(
+            temporary,
+            save_all=True,
+            append_images=frames[1:],
+            duration=round(1000 / fps),
+            loop=0,
+            **options,
+        )
+
+
+def _require_suffix(path: Path, known: tuple[str, ...]) -> None:
+    if path.suffix.lower() not in known:
+        raise OutputError(
+            f"{path} has no suffix that says what to write: expected one of {', '.join(known)}."
+        )
+
+
+def _write_exr(path: Path, image: np.ndarray) -> None:
+    from .variant import load_mitsuba
+
+    mi = load_mitsuba()
+    if image.dtype == np.uint8:
+        raise OutputError(
+            f"{path.name} is for linear pictures: strips and sheets are 8-bit, write them as .png."
+        )
+    mi.Bitmap(np.ascontiguousarray(image, np.float32)).write(str(path))
+
+
+def _labelled(tile: np.ndarray, label: str | None) -> np.ndarray:
+    """The tile with its label in a margin below."""
+    if label is None:
+        return tile
+    width = tile.shape[1]
+    size = max(9, width // 18)
+    margin = Image.new("RGB", (width, round(1.9 * size)), (PAPER, PAPER, PAPER))
+    font = ImageFont.load_default(size)
+    ImageDraw.Draw(margin).text((width / 2, 0.9 * size), label, fill=INK, font=font, anchor="mm")
+    return np.concatenate([tile, np.array(margin)])
+
+
+def _spaced(tiles: Sequence[np.ndarray], gap: int, *, axis: int) -> np.ndarray:
+    """Tiles next to each other along an axis, with paper between them."""
+    shape = list(tiles[0].shape)
+    shape[axis] = gap
+    paper = np.full(shape, PAPER, np.uint8)
+    parts = [part for tile in tiles for part in (paper, tile)]
+    return np.concatenate(parts[1:], axis=axis)

@@ -1,0 +1,239 @@
+"""Importance sampling of a table: a cosine lobe for its diffuse floor, tabulated half vectors for the rest.
+
+The best density for a view ``wo`` is proportional to f_r cos(theta_i). Near a highlight it is smooth in the half vector
+``h``, so it is tabulated there, for a few view angles theta_o, over the cosine drop x = 1 - cos(theta_h) and the azimuth
+phi of ``h`` against the view (dh = dx dphi, so no Jacobian is left; the two sides of the plane of incidence are
+averaged):
+
+    q(h) = max(0, f_r - c) cos(theta_i) 4 (wo . h)         bilinear between nodes in (x, phi)
+    p(wi) = a cos(theta_i) / pi + (1 - a) q(h) / (4 (wo . h) integral of q)
+
+c is the diffuse floor of that view angle and ``a`` the share of the albedo that it makes. The nodes in x are the table's own
+cell centres in theta_h: between them a trilinear table has no structure that bilinear interpolation would miss. Between two view
+angles one of the neighbours is chosen at random, in proportion, and the density is the blend of both.
+
+A cell of the density is found by its cumulative sums (rows by one coordinate of the sample, columns by the other, so stratified
+samples stay stratified), a point in it by the closed form of a bilinear density.
+"""
+
+from typing import Any, NamedTuple
+
+import drjit as dr
+import mitsuba as mi
+import numpy as np
+from numpy.typing import ArrayLike
+
+N_VIEWS = 24
+"""View angles, evenly spaced from 0 to the last, `STEEPEST_VIEW`."""
+STEEPEST_VIEW = np.radians(89.0)
+N_AZIMUTHS = 16
+"""Cells in phi over half a turn."""
+DEFENCE = 0.02
+"""The least share of the cosine lobe: it bounds the weight where the tabulated density is too low."""
+FLOOR_QUANTILE = 0.25
+"""The diffuse floor is the value that this share of the reflected solid angle (cosine-weighted) stays below."""
+
+
+class HalfVectorSampling:
+    """The density of one table, on the device; made of a BSDF with a ``grid`` and ``values(wi, wo, active)``.
+
+    Attributes
+    ----------
+    reflectance : Color3f
+        Mean reflectance: the share of evenly diffuse light that leaves the surface.
+    """
+
+    def __init__(self, bsdf: Any) -> None:
+        self._axis = next(axis for axis in bsdf.grid.axes if axis.angle == "theta_h")
+        views = np.linspace(0, STEEPEST_VIEW, N_VIEWS)
+        theta_h = np.concatenate([[0], self._axis.centres(), [self._axis.stop]])
+        azimuths = np.linspace(0, np.pi, N_AZIMUTHS + 1)
+        drops = 2 * np.sin(theta_h / 2) ** 2
+        f, jacobian = _tabulate(bsdf, views, theta_h, azimuths)
+        measure = jacobian * np.outer(_trapezoid(drops), _trapezoid(azimuths)) / 2
+
+        grey = f.mean(axis=0)
+        floor = np.array([_quantile(*each) for each in zip(grey, measure, strict=True)])
+        rest = np.maximum(grey - floor[:, None, None, None], 0)
+        density, totals = _normalised((rest * jacobian).mean(axis=1), drops)
+        self._cells = buffer(density.cells)
+        self._rows = buffer(density.rows)
+        self._columns = buffer(density.columns)
+        self._drops = buffer(drops)
+        self._n_rows = len(drops) - 1
+        self._shares = buffer(_shares(np.pi * floor, totals))
+
+        albedo = np.einsum("cksij,ksij->kc", f, 2 * measure)
+        weight = np.sin(2 * views)
+        self.reflectance = mi.Color3f(*map(buffer, weight @ albedo / weight.sum()))
+
+    def pdf(self, wi: Any, wo: Any, active: Any) -> Any:
+        """Density of ``wi`` per solid angle, given the view ``wo``."""
+        view, fraction = self._view(wo)
+        share = self._share(view, fraction, active)
+        H = wi + wo
+        length = dr.norm(H)
+        across2 = dr.square(H.x) + dr.square(H.y)
+        row = self._row(dr.atan2(dr.sqrt(across2), H.z))
+        x = across2 / (length * (length + H.z))
+        turn = dr.atan2(wo.x * H.y - wo.y * H.x, wo.x * H.x + wo.y * H.y)
+        column = dr.abs(turn) * (N_AZIMUTHS / np.pi)
+        q = dr.lerp(
+            self._density(view, row, x, column, active),
+            self._density(view + 1, row, x, column, active),
+            fraction,
+        )
+        return share * wi.z / np.pi + (1 - share) * q / (2 * length)
+
+    def sample(self, wo: Any, sample1: Any, sample2: Any, active: Any) -> Any:
+        """A direction to the light for the view ``wo``; it may fall below the horizon."""
+        view, fraction = self._view(wo)
+        share = self._share(view, fraction, active)
+        diffuse = mi.warp.square_to_cosine_hemisphere(sample2)
+        choice = (sample1 - share) / dr.maximum(1 - share, 1e-6)
+        view = dr.select(choice < fraction, view + 1, view)
+        h = self._half_vector(wo, view, sample2, active)
+        glossy = dr.normalize(2 * dr.dot(wo, h) * h - wo)
+        return dr.select(sample1 < share, diffuse, glossy)
+
+    def _half_vector(self, wo: Any, view: Any, sample: Any, active: Any) -> Any:
+        row, u = _search(self._rows, view * (self._n_rows + 1), self._n_rows, sample.x, active)
+        side = 2 * sample.y - 1
+        cell = view * self._n_rows + row
+        column, v = _search(
+            self._columns, cell * (N_AZIMUTHS + 1), N_AZIMUTHS, dr.abs(side), active
+        )
+        q = dr.gather(mi.Vector4f, self._cells, cell * N_AZIMUTHS + column, active)
+        inside, _ = mi.warp.square_to_bilinear(q.x, q.y, q.z, q.w, mi.Point2f(u, v))
+        lower, upper = self._edges(row, active)
+        x = dr.lerp(lower, upper, inside.x)
+        phi = dr.mulsign((mi.Float(column) + inside.y) * (np.pi / N_AZIMUTHS), side)
+        sin_phi, cos_phi = dr.sincos(phi)
+        across = dr.sqrt(dr.square(wo.x) + dr.square(wo.y))
+        cos_o = dr.select(across > 0, wo.x / across, 1)
+        sin_o = dr.select(across > 0, wo.y / across, 0)
+        sin_theta = dr.safe_sqrt(x * (2 - x))
+        return mi.Vector3f(
+            sin_theta * (cos_o * cos_phi - sin_o * sin_phi),
+            sin_theta * (sin_o * cos_phi + cos_o * sin_phi),
+            1 - x,
+        )
+
+    def _density(self, view: Any, row: Any, x: Any, column: Any, active: Any) -> Any:
+        j = dr.minimum(mi.UInt32(column), N_AZIMUTHS - 1)
+        cell = (view * self._n_rows + row) * N_AZIMUTHS + j
+        q = dr.gather(mi.Vector4f, self._cells, cell, active)
+        lower, upper = self._edges(row, active)
+        u = dr.clip((x - lower) / (upper - lower), 0, 1)
+        return dr.lerp(dr.lerp(q.x, q.y, u), dr.lerp(q.z, q.w, u), column - mi.Float(j))
+
+    def _view(self, wo: Any) -> tuple[Any, Any]:
+        theta = dr.atan2(dr.sqrt(dr.square(wo.x) + dr.square(wo.y)), wo.z)
+        position = dr.clip(theta * ((N_VIEWS - 1) / STEEPEST_VIEW), 0, N_VIEWS - 1)
+        view = dr.minimum(mi.UInt32(position), N_VIEWS - 2)
+        return view, position - mi.Float(view)
+
+    def _share(self, view: Any, fraction: Any, active: Any) -> Any:
+        here, there = dr.gather(mi.Vector2f, self._shares, view, active)
+        return dr.lerp(here, there, fraction)
+
+    def _row(self, theta_h: Any) -> Any:
+        """The row between two nodes: they stand at positions 0, 1/2, 3/2, ..., n - 1/2, n."""
+        position = self._axis.size * dr.sqrt(dr.clip(theta_h / self._axis.stop, 0, 1))
+        return mi.UInt32(position + 0.5)
+
+    def _edges(self, row: Any, active: Any) -> tuple[Any, Any]:
+        return dr.gather(mi.Float, self._drops, row, active), dr.gather(
+            mi.Float, self._drops, row + 1, active
+        )
+
+
+def buffer(values: ArrayLike) -> Any:
+    """A Dr.Jit float array of these values.
+
+    Dr.Jit maps numpy's memory as it lies, and compiles anew for another alignment: so it lies at a multiple of 64 bytes.
+    """
+    flat = np.ravel(values)
+    spare = np.empty(flat.size + 16, np.float32)
+    start = -spare.ctypes.data % 64 // 4
+    aligned = spare[start : start + flat.size]
+    aligned[:] = flat
+    return mi.Float(aligned)
+
+
+class _Density(NamedTuple):
+    """A bilinear density over the cells of a grid, one per view angle, as it is looked up."""
+
+    cells: np.ndarray  # (view, row, column, 4): the density at the cell's corners; x runs fastest
+    rows: np.ndarray  # (view, row + 1): cumulative share of the rows
+    columns: np.ndarray  # (view, row, column + 1): cumulative share of the cells of a row
+
+
+def _tabulate(
+    bsdf: Any, views: np.ndarray, theta_h: np.ndarray, azimuths: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """f_r, shape (3, view, side, row node, column node), and cos(theta_i) 4 (wo . h) without the first axis."""
+    shape = (len(views), 2, len(theta_h), len(azimuths))
+    sides = np.array([1.0, -1.0])
+    v, s, t, p = (a.ravel() for a in np.meshgrid(views, sides, theta_h, azimuths, indexing="ij"))
+    h = np.stack([np.sin(t) * np.cos(p), s * np.sin(t) * np.sin(p), np.cos(t)])
+    wo = np.stack([np.sin(v), 0 * v, np.cos(v)])
+    cos_d = (h * wo).sum(axis=0)
+    wi = 2 * cos_d * h - wo
+    lit = (cos_d > 0) & (wi[2] > 0)
+    f = bsdf.values(mi.Vector3f(*map(buffer, wi)), mi.Vector3f(*map(buffer, wo)), True)
+    f = np.where(lit, np.array(f), 0).astype(float).reshape(3, *shape)
+    return f, np.where(lit, 4 * cos_d * wi[2], 0).reshape(shape)
+
+
+def _trapezoid(nodes: np.ndarray) -> np.ndarray:
+    """Weights of the trapezoidal rule."""
+    steps = np.diff(nodes, prepend=nodes[0], append=nodes[-1])
+    return (steps[:-1] + steps[1:]) / 2
+
+
+def _quantile(values: np.ndarray, weights: np.ndarray) -> float:
+    """The value that `FLOOR_QUANTILE` of the weight stays below."""
+    order = np.argsort(values, axis=None)
+    below = np.cumsum(weights.ravel()[order])
+    return float(values.ravel()[order][np.searchsorted(below, FLOOR_QUANTILE * below[-1])])
+
+
+def _normalised(q: np.ndarray, drops: np.ndarray) -> tuple[_Density, np.ndarray]:
+    """The density of nodes, shape (view, row node, column node), and its integrals over both sides."""
+    corners = np.stack([q[:, :-1, :-1], q[:, 1:, :-1], q[:, :-1, 1:], q[:, 1:, 1:]], axis=-1)
+    mass = corners.mean(axis=-1) * np.diff(drops)[:, None] * (np.pi / N_AZIMUTHS)
+    totals = 2 * mass.sum(axis=(1, 2))
+    scale = 1 / np.maximum(totals, np.finfo(float).tiny)
+    density = _Density(
+        cells=corners * scale[:, None, None, None],
+        rows=_cumulative(mass.sum(axis=2)),
+        columns=_cumulative(mass),
+    )
+    return density, totals
+
+
+def _cumulative(mass: np.ndarray) -> np.ndarray:
+    sums = np.cumsum(mass, axis=-1)
+    last = np.maximum(sums[..., -1:], np.finfo(float).tiny)
+    return np.concatenate([np.zeros_like(last), sums / last], axis=-1)
+
+
+def _shares(floors: np.ndarray, rests: np.ndarray) -> np.ndarray:
+    """Share of the cosine lobe at each view angle and the next, flat."""
+    share = floors / np.maximum(floors + rests, np.finfo(float).tiny)
+    share = np.where(rests > 0, np.clip(share, DEFENCE, 1), 1)
+    return np.stack([share[:-1], share[1:]], axis=-1).ravel()
+
+
+def _search(cumulative: Any, start: Any, size: int, sample: Any, active: Any) -> tuple[Any, Any]:
+    """The interval of ``cumulative[start : start + size + 1]`` that holds ``sample``, and where in it."""
+    lower, upper = mi.UInt32(0), mi.UInt32(size)
+    for _ in range((size - 1).bit_length()):
+        middle = (lower + upper) >> 1
+        beyond = dr.gather(mi.Float, cumulative, start + middle, active) <= sample
+        lower = dr.select(beyond, middle, lower)
+        upper = dr.select(beyond, upper, middle)
+    below = dr.gather(mi.Float, cumulative, start + lower, active)
+    above = dr.gather(mi.Float, cumulative, start + lower + 1, active)
+    return lower, dr.clip((sample - below) / (above - below), 0, 1)

@@ -1,0 +1,110 @@
+"""The scenes: what stands where, under which light, seen from where.
+
+World coordinates: x to the right of the camera, y away from it, z up; the ground is z = 0.
+"""
+
+from dataclasses import dataclass
+from typing import Literal
+
+Vector = tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class Placed:
+    """An object: its shape, where it stands, and which of the materials it wears."""
+
+    shape: Literal["teapot", "sphere", "mesh"]
+    at: Vector = (0.0, 0.0, 0.0)
+    """Where the middle of its foot stands."""
+    height: float = 1.0
+    turn_degrees: float = 0.0
+    """About the vertical, counter-clockwise seen from above."""
+    material: int = 0
+
+
+@dataclass(frozen=True)
+class PointLight:
+    """A point that shines evenly to all sides."""
+
+    at: Vector
+    intensity: float
+    """W/sr; at distance r it lights a surface that faces it with intensity / r^2."""
+
+
+@dataclass(frozen=True)
+class Camera:
+    """A pinhole camera with z up."""
+
+    at: Vector
+    target: Vector
+    fov_degrees: float
+    """Of the shorter side of the picture."""
+
+
+@dataclass(frozen=True)
+class Scene:
+    """A scene of one or more objects."""
+
+    name: str
+    text: str
+    """One line on what it shows."""
+    objects: tuple[Placed, ...]
+    camera: Camera
+    points: tuple[PointLight, ...] = ()
+    """Point lights; none means the environment."""
+    ground: bool = False
+    """A white sweep of paper under and behind the objects."""
+    bounces: int = 1
+    """1: direct light, and pictures mix as materials do; more: light between the objects and the ground too."""
+
+    @property
+    def n_materials(self) -> int:
+        """How many materials the scene takes."""
+        return 1 + max(placed.material for placed in self.objects)
+
+
+_KEY, _FILL, _BACK = (
+    PointLight((-4.0, -5.0, 6.0), 150.0),
+    PointLight((5.5, -4.0, 2.5), 45.0),
+    PointLight((1.5, 4.5, 5.0), 110.0),
+)
+
+SCENES = {
+    scene.name: scene
+    for scene in (
+        Scene(
+            "teapot",
+            "the Utah teapot in a studio of soft boxes",
+            (Placed("teapot", height=3.15, turn_degrees=-28.0),),
+            Camera((0.15, -13.0, 5.6), (0.1, 0.0, 1.32), 28.0),
+            ground=True,
+        ),
+        Scene(
+            "spheres",
+            "a sphere under three point lights",
+            (Placed("sphere", height=2.0),),
+            Camera((0.0, -12.0, 1.0), (0.0, 0.0, 1.0), 11.0),
+            points=(_KEY, _FILL, _BACK),
+        ),
+        Scene(
+            "sphere",
+            "a sphere under one point light, the fastest",
+            (Placed("sphere", height=2.0),),
+            Camera((0.0, -12.0, 1.0), (0.0, 0.0, 1.0), 10.4),
+            points=(_KEY,),
+        ),
+        Scene(
+            "trio",
+            "three objects in three materials on a ground, with the light between them",
+            (
+                Placed("teapot", at=(0.0, 0.4, 0.0), height=2.4, turn_degrees=-28.0, material=1),
+                Placed("sphere", at=(-2.75, -0.9, 0.0), height=1.7, material=0),
+                Placed("sphere", at=(2.6, -1.3, 0.0), height=1.7, material=2),
+            ),
+            Camera((0.0, -13.0, 4.6), (0.0, 0.0, 1.0), 30.0),
+            ground=True,
+            bounces=5,
+        ),
+    )
+}
+"""The scenes by name."""

@@ -1,0 +1,173 @@
+"""Which Mitsuba to run: the LLVM library, the variant, and what was found.
+
+Dr.Jit compiles through libLLVM, which it takes from ``DRJIT_LIBLLVM_PATH`` or from the system. LLVM 15 and 16 load and
+then abort the whole process at the first render ("Cannot select: fminimum"), which nothing can catch. So the library is
+chosen here, before Mitsuba is imported: the one the user set, else the one of ``karellen-llvm-core`` in this environment,
+else the newest on the system that is known to work.
+"""
+
+import importlib
+import importlib.metadata
+import os
+import re
+import sys
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from ..errors import RenderError
+
+VARIANT = "llvm_ad_rgb"
+OLDEST_LLVM = 19
+"""Dr.Jit refuses 14; 15 and 16 abort the process; 19 and later are known to work."""
+
+_PATH_VARIABLE = "DRJIT_LIBLLVM_PATH"
+_SYSTEM_LIBRARIES = {
+    "linux": ("/usr/lib/*/libLLVM*.so*", "/usr/lib/llvm-*/lib/libLLVM*.so*", "/usr/lib64/libLLVM*.so*"),
+    "darwin": ("/opt/homebrew/Cellar/llvm/*/lib/libLLVM.dylib", "/usr/local/Cellar/llvm/*/lib/libLLVM.dylib"),
+    "win32": (),
+}  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Llvm:
+    """A libLLVM and how it was found."""
+
+    path: Path
+    version: int | None
+    """Major version; None where the name does not tell."""
+    origin: str
+
+    @property
+    def works(self) -> bool:
+        """Whether the version is one that renders; what the user chose is taken at their word."""
+        return self.origin == "set by the user" or (self.version or 0) >= OLDEST_LLVM
+
+    def __str__(self) -> str:
+        return f"LLVM {self.version or '?'} ({self.origin}: {self.path})"
+
+
+def find_llvm() -> Llvm | None:
+    """The libLLVM to use, or None: the user's own, the environment's, the newest of the system that works."""
+    if chosen := os.environ.get(_PATH_VARIABLE):
+        return Llvm(Path(chosen), _version(Path(chosen)), "set by the user")
+    usable = (llvm for llvm in (*_in_environment(), *_on_system()) if llvm.works)
+    return next(usable, None)
+
+
+def load_mitsuba() -> Any:
+    """The ``mitsuba`` module with a variant that renders tables set.
+
+    A variant that the program has set before is kept where tables work in it (``llvm_*`` and ``cuda_*``, rgb and
+    mono).
+
+    Raises
+    ------
+    RenderError
+        When there is no Mitsuba, no LLVM that works, or a variant is set in which tables do not work.
+    """
+    if "mitsuba" not in sys.modules:
+        _choose_llvm()
+    mi = _import_mitsuba()
+    if mi.variant() is None:
+        mi.set_variant(VARIANT)
+    require_tables(mi.variant())
+    return mi
+
+
+def register() -> None:
+    """Make ``halfway_table`` known to Mitsuba, in the variant that is set, for scenes given as dicts or XML.
+
+    Works with the variants in which tables do; sets one where none is set.
+
+    Examples
+    --------
+    >>> import halfway.render, mitsuba as mi                                        # doctest: +SKIP
+    >>> halfway.render.register()                                                   # doctest: +SKIP
+    >>> mi.load_dict({"type": "halfway_table", "filename": "gold-paint.binary"})    # doctest: +SKIP
+    """
+    mi = load_mitsuba()
+    from . import bsdf
+
+    if mi.variant() != bsdf.VARIANT:
+        importlib.reload(bsdf)
+    mi.register_bsdf("halfway_table", bsdf.TableBsdf)
+
+
+def require_tables(variant: str) -> None:
+    """Refuse a variant in which a measured table cannot be looked up.
+
+    Raises
+    ------
+    RenderError
+        For scalar variants (a table is looked up for many rays at once) and spectral ones (it has three channels).
+    """
+    if not re.fullmatch(r"(llvm|cuda)_ad_(rgb|mono)", variant):
+        raise RenderError(
+            f"The Mitsuba variant {variant} cannot render tables: "
+            f"llvm_ad and cuda_ad variants, rgb or mono, can. Call mi.set_variant({VARIANT!r}) first."
+        )
+
+
+def _choose_llvm() -> None:
+    llvm = find_llvm()
+    if llvm is None:
+        raise RenderError(
+            f"No LLVM library of version {OLDEST_LLVM} or later was found, and rendering compiles through it. "
+            f"{_advice()}, or name one in {_PATH_VARIABLE}."
+        )
+    if not llvm.path.is_file():
+        raise RenderError(
+            f"{_PATH_VARIABLE} names {llvm.path}, which is no file: expected an LLVM library. "
+            "Correct it, or unset it to have one chosen."
+        )
+    os.environ[_PATH_VARIABLE] = str(llvm.path)
+
+
+def _import_mitsuba() -> Any:
+    try:
+        import mitsuba
+    except ImportError as error:
+        raise RenderError(
+            f"Mitsuba cannot be imported ({error}): rendering needs it. Run pip install mitsuba."
+        ) from error
+    return mitsuba
+
+
+def _advice() -> str:
+    match sys.platform:
+        case "linux":
+            return "Run pip install karellen-llvm-core"
+        case "darwin":
+            return "Run brew install llvm"
+        case _:
+            return "Install LLVM from https://releases.llvm.org"
+
+
+def _in_environment() -> Iterator[Llvm]:
+    try:
+        files = importlib.metadata.files("karellen-llvm-core") or []
+        version = importlib.metadata.version("karellen-llvm-core")
+    except importlib.metadata.PackageNotFoundError:
+        return
+    for file in files:
+        if file.name in ("libLLVM.so", "libLLVM.dylib"):
+            path = Path(str(file.locate())).resolve()
+            yield Llvm(path, int(version.split(".")[0]), "karellen-llvm-core")
+
+
+def _on_system() -> list[Llvm]:
+    paths = [
+        path
+        for pattern in _SYSTEM_LIBRARIES.get(sys.platform, ())
+        for path in Path("/").glob(pattern.lstrip("/"))
+    ]
+    found = [Llvm(path, _version(path), "system") for path in paths]
+    return sorted(found, key=lambda llvm: (llvm.version or 0, str(llvm.path)), reverse=True)
+
+
+def _version(path: Path) -> int | None:
+    resolved = str(path.resolve())
+    match = re.search(r"libLLVM(?:\.so\.|-)(\d+)|llvm[-/](\d+)", resolved)
+    return int(match[1] or match[2]) if match else None

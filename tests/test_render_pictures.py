@@ -1,0 +1,89 @@
+"""Tone mapping, strips, sheets and animations."""
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose, assert_array_equal
+from PIL import Image
+
+from halfway.errors import OutputError
+from halfway.render import pictures
+
+
+def grey(value: float, size: int = 32) -> np.ndarray:
+    return np.full((size, size, 3), value, np.float32)
+
+
+def test_srgb_coding_at_known_values():
+    """0 and 1 are black and white; IEC 61966-2-1 codes 18 % grey as 118; the linear part has slope 12.92."""
+    coded = [int(pictures.to_srgb(grey(v, 1))[0, 0, 0]) for v in (-1, 0, 0.001, 0.18, 0.5, 1, 9)]
+    assert coded == [0, 0, 3, 118, 188, 255, 255]
+
+
+def test_one_stop_doubles_the_light():
+    assert_array_equal(pictures.to_srgb(grey(0.1), exposure=1.0), pictures.to_srgb(grey(0.2)))
+
+
+def test_what_is_coded_stays_as_it_is():
+    coded = pictures.to_srgb(grey(0.3))
+    assert pictures.to_srgb(coded, exposure=3.0) is coded
+
+
+@pytest.mark.parametrize("suffix", [".png", ".webp"])
+def test_a_written_picture_reads_back(tmp_path, suffix):
+    image = grey(0.18)
+    pictures.write(tmp_path / f"a{suffix}", image)
+    read = np.array(Image.open(tmp_path / f"a{suffix}").convert("RGB"))
+    assert_allclose(read, pictures.to_srgb(image), atol=1)
+    assert [path.name for path in tmp_path.iterdir()] == [f"a{suffix}"]
+
+
+def test_exr_keeps_the_radiance(tmp_path):
+    import mitsuba as mi
+
+    image = np.random.default_rng(0).random((4, 5, 3)).astype(np.float32) * 50
+    pictures.write(tmp_path / "a.exr", image, exposure=2.0)
+    assert_array_equal(np.array(mi.Bitmap(str(tmp_path / "a.exr"))), image)
+
+
+def test_a_strip_is_one_row_with_room_for_labels():
+    plain = pictures.strip([grey(0.1), grey(0.2), grey(0.3)])
+    labelled = pictures.strip([grey(0.1), grey(0.2), grey(0.3)], labels=["0", "0.5", "1"])
+    assert plain.shape == (32, 3 * 32 + 2 * 2, 3)
+    assert labelled.shape[1] == plain.shape[1]
+    assert labelled.shape[0] > 32
+    assert_array_equal(labelled[:32], plain)
+    assert (labelled[32:] < 200).any()  # ink
+
+
+def test_a_sheet_fills_its_last_row_with_paper():
+    sheet = pictures.sheet([grey(0.0)] * 5, columns=3)
+    assert sheet.shape == (2 * 32 + 2, 3 * 32 + 2 * 2, 3)
+    assert (sheet[-32:, -32:] == pictures.PAPER).all()
+    assert (sheet[:32, -32:] == 0).all()
+
+
+@pytest.mark.parametrize("suffix", [".webp", ".gif"])
+def test_an_animation_has_all_its_frames(tmp_path, suffix):
+    path = tmp_path / f"a{suffix}"
+    pictures.animate(path, [grey(v) for v in (0.1, 0.4, 0.9)], fps=10.0)
+    with Image.open(path) as animation:
+        assert animation.n_frames == 3
+        animation.seek(1)
+        animation.load()
+        assert animation.info["duration"] == 100
+
+
+@pytest.mark.parametrize("name", ["a", "a.bmp", "a.mov"])
+def test_an_unknown_suffix_is_refused_with_what_is_known(tmp_path, name):
+    with pytest.raises(OutputError, match=r"expected one of \.png"):
+        pictures.write(tmp_path / name, grey(0))
+    with pytest.raises(OutputError, match=r"expected one of \.webp"):
+        pictures.animate(tmp_path / name, [grey(0)])
+
+
+def test_nothing_to_show_is_refused(tmp_path):
+    with pytest.raises(OutputError, match="no pictures"):
+        pictures.sheet([])
+    with pytest.raises(OutputError, match="no pictures"):
+        pictures.animate(tmp_path / "a.gif", [])
+    assert not list(tmp_path.iterdir())

@@ -1,0 +1,138 @@
+"""Pictures of whole scenes."""
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose, assert_array_equal
+
+from halfway.brdf import TabularBrdf
+from halfway.errors import RenderError
+from halfway.halfdiff import Grid
+from halfway.render import SCENES, Renderer
+from halfway.render.studio import directions, studio
+
+GRID = Grid.merl(12, 10, 12)
+
+
+def lambertian(*albedo: float) -> TabularBrdf:
+    values = np.array(albedo, np.float32)[:, None, None, None] / np.float32(np.pi)
+    return TabularBrdf(np.broadcast_to(values, (3, *GRID.shape)).copy(), GRID)
+
+
+RED, GREEN = lambertian(0.8, 0.1, 0.1), lambertian(0.1, 0.6, 0.1)
+
+
+@pytest.fixture(scope="module")
+def teapot() -> Renderer:
+    return Renderer("teapot", size=(48, 40), spp=16, seed=3)
+
+
+def test_the_same_seed_gives_the_same_picture(teapot):
+    first = teapot.picture(RED)
+    teapot.picture(GREEN)
+    assert first.shape == (40, 48, 3)
+    assert first.dtype == np.float32
+    # Threads add up a pixel's samples in another order: some units in the last place.
+    again = Renderer("teapot", size=(48, 40), spp=16, seed=3).picture(RED)
+    assert_allclose(teapot.picture(RED), first, rtol=2e-6)
+    assert_allclose(again, first, rtol=2e-6)
+    assert not np.array_equal(Renderer("teapot", size=(48, 40), spp=16, seed=4).picture(RED), first)
+
+
+def test_the_picture_of_a_mix_is_the_mix_of_the_pictures(teapot):
+    mixed = TabularBrdf(0.3 * RED.values + 0.7 * GREEN.values, GRID)
+    assert_allclose(
+        teapot.picture(mixed), 0.3 * teapot.picture(RED) + 0.7 * teapot.picture(GREEN), atol=0.02
+    )
+
+
+def test_the_material_colours_the_object_and_not_the_ground(teapot):
+    red = teapot.picture(RED)
+    assert red[24, 22, 0] > 3 * red[24, 22, 1]
+    assert_allclose(red[-1, 0], red[-1, 0, 0], rtol=1e-3)
+    assert_array_equal(red[-1], teapot.picture(GREEN)[-1])
+
+
+def test_a_point_lit_sphere_shows_its_brdf():
+    """Where the light meets a white sphere head-on, radiance is albedo / pi times intensity / distance^2."""
+    renderer = Renderer("sphere", size=(65, 65), spp=4)
+    picture = renderer.picture(lambertian(1, 1, 1))
+    scene = SCENES["sphere"]
+    light = scene.points[0]
+    distance = np.linalg.norm(np.array(light.at) - [0, 0, 1]) - 1
+    assert_allclose(picture.max(), light.intensity / distance**2 / np.pi, rtol=0.02)
+
+
+def test_more_bounces_bring_more_light():
+    renderer = Renderer("trio", size=(32, 32), spp=16)
+    assert not renderer.linear
+    assert Renderer("teapot", size=(8, 8), spp=1).linear
+    direct = Renderer("trio", size=(32, 32), spp=16, bounces=1)
+    assert renderer.picture(RED).mean() > 1.05 * direct.picture(RED).mean()
+
+
+def test_a_scene_of_three_takes_one_material_or_three():
+    renderer = Renderer("trio", size=(16, 16), spp=1)
+    picture = renderer.picture([RED, GREEN, RED])
+    assert picture.shape == (16, 16, 3)
+    with pytest.raises(RenderError, match=r"trio takes 3 materials: 2 were given"):
+        renderer.picture([RED, GREEN])
+
+
+def test_a_mesh_stands_in_for_the_teapot(tmp_path):
+    """A cube, y up, in place of the teapot."""
+    corners = [(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)]
+    quads = [(1, 2, 4, 3), (5, 7, 8, 6), (1, 5, 6, 2), (3, 4, 8, 7), (1, 3, 7, 5), (2, 6, 8, 4)]
+    lines = [f"v {x} {y} {z}" for x, y, z in corners] + [
+        f"f {a} {b} {c} {d}" for a, b, c, d in quads
+    ]
+    path = tmp_path / "cube.obj"
+    path.write_text("\n".join(lines))
+    picture = Renderer("teapot", size=(32, 32), spp=4, mesh=path).picture(RED)
+    assert picture[16, 16, 0] > 2 * picture[16, 16, 1] > 0
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"scene": "kitchen"}, "no scene 'kitchen': there are teapot, spheres, sphere, trio"),
+        ({"size": (0, 10)}, "width is 0: expected 1 to 8192"),
+        ({"size": (10, 9000)}, "height is 9000: expected 1 to 8192"),
+        ({"spp": 0}, "spp is 0: expected 1 to 65536"),
+        ({"bounces": 0}, "bounces is 0: expected 1 to"),
+        ({"mesh": "none.ply"}, "mesh none.ply does not exist"),
+        ({"mesh": "dragon.stl"}, r"mesh dragon.stl is of an unknown kind: expected .ply or .obj"),
+        ({"env": "sky.jpg"}, r"environment sky.jpg is of an unknown kind: expected .hdr or .exr"),
+    ],
+)
+def test_what_cannot_be_rendered_is_refused_in_one_line(options, message):
+    with pytest.raises(RenderError, match=message) as caught:
+        Renderer(**options)
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [("bad.ply", "no ply"), ("bad.obj", "v 1 2\n"), ("bad.hdr", "no hdr"), ("bad.exr", "")],
+)
+def test_a_damaged_file_is_refused_in_one_line(tmp_path, name, text):
+    path = tmp_path / name
+    path.write_text(text)
+    option = "mesh" if path.suffix in (".ply", ".obj") else "env"
+    with pytest.raises(RenderError, match=name) as caught:
+        Renderer(**{option: path})
+    assert "\n" not in str(caught.value)
+
+
+def test_the_studio_is_light_above_and_never_black():
+    image = studio(64)
+    assert image.shape == (64, 128, 3)
+    assert image.dtype == np.float32
+    assert image.min() > 0.1
+    assert image[:32].mean() > image[32:].mean()
+
+
+def test_the_middle_of_an_environment_looks_away_from_the_camera():
+    d = directions(64)
+    assert_allclose(d[32, 64], [0, 1, 0], atol=0.05)
+    assert_allclose(d[32, 96], [1, 0, 0], atol=0.05)
+    assert_allclose(d[0, 0], [0, 0, 1], atol=0.05)
