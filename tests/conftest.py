@@ -1,8 +1,28 @@
-"""What several test modules share."""
+"""What several test modules share.
+
+Shapes and dtypes in the package's annotations are checked while the tests run.
+"""
 
 from pathlib import Path
 
+import numpy as np
 import pytest
+from hypothesis import settings
+from jaxtyping import install_import_hook
+
+SOURCE = Path(__file__).parents[1] / "src"
+# Compiled code has types of its own; a class of the renderer is made by it.
+UNCHECKED = ("halfway.space.kernel", "halfway.render.bsdf")
+MODULES = [".".join(path.relative_to(SOURCE).with_suffix("").parts) for path in SOURCE.rglob("*.py")]
+install_import_hook([name for name in MODULES if name not in UNCHECKED], "beartype.beartype")
+
+from halfway.brdf import TabularBrdf  # noqa: E402 (after the hook)
+from halfway.halfdiff import Grid  # noqa: E402
+from halfway.library import ProceduralLibrary  # noqa: E402
+
+# On a busy machine a draw may take long; what a test may take is CI's business.
+settings.register_profile("halfway", deadline=None, max_examples=50)
+settings.load_profile("halfway")
 
 SHARED_DATA = Path(__file__).parents[2] / "shared" / "data"
 
@@ -13,3 +33,20 @@ def shared_data() -> Path:
     if not SHARED_DATA.is_dir():
         pytest.skip("needs the data folder ../shared/data, which is not part of the repository")
     return SHARED_DATA
+
+
+def random_tables(n: int, grid: Grid, seed: int = 0) -> dict[str, TabularBrdf]:
+    """``n`` reproducible tables: positive where both directions are above the horizon, NaN elsewhere."""
+    rng = np.random.default_rng(seed)
+    tables = {}
+    for name in map("material-{}".format, range(n)):
+        values = rng.gamma(0.5, size=(3, *grid.shape)).astype(np.float32)
+        values[:, ~grid.mask()] = np.nan
+        tables[name] = TabularBrdf(values, grid, name=name)
+    return tables
+
+
+@pytest.fixture(scope="session")
+def small_library() -> ProceduralLibrary:
+    """Nine random materials on a small grid, held in memory."""
+    return ProceduralLibrary("small", random_tables(9, Grid.merl(6, 5, 8)), grid=Grid.merl(6, 5, 8))

@@ -8,7 +8,7 @@ from typing import TypeAlias
 import numpy as np
 from jaxtyping import Bool, Float, Float32, Float64, Int
 
-Angle: TypeAlias = Float[np.ndarray, "..."]
+Angle: TypeAlias = Float[np.ndarray | np.floating, "..."]
 """Radians."""
 Directions: TypeAlias = Float[np.ndarray, "... 3"]
 """Unit vectors in the local frame: normal +z, tangent +x."""
@@ -24,4 +24,4 @@ Rows: TypeAlias = Float32[np.ndarray, "3 n_materials n_cells"]
 Weights: TypeAlias = Float64[np.ndarray, "3 n_materials"]
 """A weight per channel and material."""
 Points: TypeAlias = Float64[np.ndarray, "n_points n_dimensions"]
-Indices: TypeAlias = Int[np.ndarray, "..."]
+Indices: TypeAlias = Int[np.ndarray | np.integer, "..."]

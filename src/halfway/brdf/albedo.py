@@ -3,8 +3,8 @@
     a(theta_i) = integral of f_r(wi, wo) cos(theta_o) over the hemisphere of wo
 
 The integral runs over half vectors, where measured materials are smooth: ``dwo = 4 (wi . h) dh``, with theta_h
-square-root spaced as the MERL grid is. With two nodes a cell, the midpoint rule falls on the middle of each linear
-piece of a trilinear table.
+square-root spaced as the MERL grid is. With an even number of nodes a cell (four of the MERL grid's by default), no node
+falls on a border of the midpoint rule's pieces of a trilinear table; mirror-like ones are good to .3 %.
 """
 
 from collections.abc import Callable
@@ -17,10 +17,10 @@ from .brdf import Brdf
 
 def directional_albedo(
     brdf: Brdf | Callable[[Directions, Directions], Values],
-    theta_i: Angle,
+    theta_i: Angle | float,
     *,
-    n_theta_h: int = 180,
-    n_phi_h: int = 120,
+    n_theta_h: int = 360,
+    n_phi_h: int = 60,
 ) -> Values:
     """Reflected share of the light from ``theta_i`` (radians), shape (..., 3); dimensionless.
 

@@ -20,7 +20,7 @@ def cached(
         return compute()
     path = folder / f"{key}.npz"
     try:
-        with np.load(path, allow_pickle=False) as archive:
+        with path.open("rb") as file, np.load(file, allow_pickle=False) as archive:
             return dict(archive)
     except Exception:
         pass

@@ -95,7 +95,9 @@ class Pca:
         """
         v = self.eigenvectors[:, :, :n_components]
         i = library.index(name)
-        weights = 1 / len(self.names) + np.einsum("ck,cjk->cj", v[:, i], v)
+        projection = np.einsum("ck,cjk->cj", v[:, i], v)
+        # The weights are over p_j = C + u_j, and C counts once.
+        weights = 1 / len(self.names) + projection - projection.mean(axis=1, keepdims=True)
         combine = partial(_combine, library, weights)
         values: Table = np.concatenate(list(run(combine, library.blocks())), axis=1)
         label = f"{name}, {n_components} components"

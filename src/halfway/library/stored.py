@@ -85,7 +85,7 @@ class StoredLibrary(Library):
         starts = range(0, self.grid.size, n_columns)
         return [slice(start, min(start + n_columns, self.grid.size)) for start in starts]
 
-    def _tables(self) -> Rows:
+    def _tables(self) -> np.ndarray:
         return np.load(self.path / "tables.npy", mmap_mode="r", allow_pickle=False)
 
     def _check_tables(self) -> None:

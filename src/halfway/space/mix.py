@@ -9,13 +9,13 @@ negative: a mix of sound materials is sound. The truncated PCA is something else
 from collections import OrderedDict
 from threading import Lock
 
-import numba
 import numpy as np
 
 from .._types import Table
 from ..brdf import TabularBrdf
 from ..errors import LibraryError, RecipeError
 from ..library import Library
+from .kernel import add_four
 from .recipe import Recipe
 
 ROWS_AT_ONCE = 4
@@ -81,24 +81,5 @@ def _weighted_sum(out: np.ndarray, rows: list[np.ndarray], weights: np.ndarray) 
         # The last row again, at weight 0: NaN stays NaN and everything else stays itself.
         a, b, c, d = some + some[-1:] * n_spare
         w = np.append(weights[first : first + ROWS_AT_ONCE], [0.0] * n_spare)
-        _add_four(total, a, b, c, d, w, first > 0)
+        add_four(total, a, b, c, d, w, first > 0)
     out[:] = total
-
-
-@numba.njit(nogil=True, cache=True)
-def _add_four(
-    total: np.ndarray,
-    a: np.ndarray,
-    b: np.ndarray,
-    c: np.ndarray,
-    d: np.ndarray,
-    w: np.ndarray,
-    keep: bool,
-) -> None:
-    """``total = [total +] w . (a, b, c, d)`` in one pass; ``keep`` says whether the old total counts."""
-    if keep:
-        for i in range(len(total)):
-            total[i] += w[0] * a[i] + w[1] * b[i] + w[2] * c[i] + w[3] * d[i]
-    else:
-        for i in range(len(total)):
-            total[i] = w[0] * a[i] + w[1] * b[i] + w[2] * c[i] + w[3] * d[i]

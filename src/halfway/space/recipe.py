@@ -17,7 +17,7 @@ from jaxtyping import Float64
 
 from ..errors import RecipeError
 
-CHANNELS = ("r", "g", "b")
+CHANNELS: tuple[str, str, str] = ("r", "g", "b")
 SUM_TOLERANCE = 1e-6
 """How far a channel's written weights may sum from 1; they are then scaled to sum to 1 exactly."""
 

@@ -118,10 +118,10 @@ class Triangulation:
                 ahead = np.flatnonzero((enter > t) & (leave > enter + INSIDE))
                 if not len(ahead):
                     return crossings
-                i = ahead[enter[ahead].argmin()]
+                i = int(ahead[enter[ahead].argmin()])
                 t = float(enter[i])
             else:
-                i = here[leave[here].argmax()]
+                i = int(here[leave[here].argmax()])
                 t = float(leave[i])
             if t >= 1 - INSIDE:
                 return crossings

@@ -1,0 +1,33 @@
+"""What the property tests draw from."""
+
+import numpy as np
+from hypothesis import strategies as st
+from hypothesis.extra import numpy as hnp
+
+from halfway.halfdiff import Grid
+
+TINY = Grid.merl(3, 4, 5)
+"""Small enough to write down, with a different size along each axis."""
+
+_azimuths = st.floats(-np.pi, np.pi)
+
+
+@st.composite
+def directions(draw: st.DrawFn, max_degrees: float = 89.0) -> np.ndarray:
+    """A unit vector above the horizon."""
+    theta = draw(st.floats(0, np.radians(max_degrees)))
+    phi = draw(_azimuths)
+    return np.array([np.sin(theta) * np.cos(phi), np.sin(theta) * np.sin(phi), np.cos(theta)])
+
+
+def points(n: int, k: int) -> st.SearchStrategy[np.ndarray]:
+    """``n`` points in ``k`` dimensions, some of them on a coarse lattice: coincident, collinear, coplanar."""
+    lattice = hnp.arrays(np.float64, (n, k), elements=st.integers(-3, 3).map(float))
+    general = st.integers(0, 2**32 - 1).map(lambda seed: np.random.default_rng(seed).normal(size=(n, k)))
+    return lattice | general
+
+
+def convex_weights(n: int) -> st.SearchStrategy[np.ndarray]:
+    """``n`` non-negative weights that sum to 1, zeros among them."""
+    raw = hnp.arrays(np.float64, n, elements=st.floats(0, 1)).filter(lambda w: w.sum() > 0.1)
+    return raw.map(lambda w: w / w.sum())

@@ -1,0 +1,202 @@
+"""Libraries: what is stored comes back, what is damaged is refused, both kinds agree."""
+
+import json
+import os
+
+import numpy as np
+import pytest
+from conftest import random_tables
+from numpy.testing import assert_allclose
+from strategies import TINY
+
+from halfway import Recipe, build_library, mix, open_library
+from halfway.errors import LibraryError, OutputError
+from halfway.formats import write_merl
+from halfway.halfdiff import Grid
+from halfway.library import Pca, ProceduralLibrary, StoredLibrary
+from halfway.library.cache import cached
+
+
+@pytest.fixture
+def folder(tmp_path):
+    """A folder of four tiny MERL files and a stray text."""
+    source = tmp_path / "measured"
+    source.mkdir()
+    for name, table in random_tables(4, TINY).items():
+        write_merl(source / f"{name}.binary", table)
+    (source / "LICENSE.txt").write_text("Do what you like.\n")
+    return source
+
+
+@pytest.fixture
+def stored(folder, tmp_path):
+    return build_library([folder], tmp_path / "tiny.brdflib").library
+
+
+def test_a_folder_of_files_becomes_a_library(folder, tmp_path):
+    built = build_library([folder], tmp_path / "tiny.brdflib")
+    assert built.library.names == ("material-0", "material-1", "material-2", "material-3")
+    assert built.library.grid == TINY
+    assert [(item.path.rsplit("/", 1)[-1], item.reason) for item in built.skipped] == [("LICENSE.txt", "is text")]
+    for name, table in random_tables(4, TINY).items():
+        assert_allclose(built.library.brdf(name).values, table.values, rtol=1e-6)
+
+
+def test_the_files_of_a_library_are_what_the_format_says(stored):
+    description = json.loads((stored.path / "library.json").read_text())
+    assert description["format"] == 1
+    assert [material["name"] for material in description["materials"]] == list(stored.names)
+    tables = np.load(stored.path / "tables.npy")
+    assert (tables.shape, tables.dtype) == ((3, 4, TINY.size), np.dtype("<f4"))
+
+
+def test_rows_and_columns_are_the_same_samples(stored):
+    columns = np.concatenate([stored.columns(block) for block in stored.blocks()], axis=2)
+    for i in range(len(stored)):
+        np.testing.assert_array_equal(stored.row(i), columns[:, i])
+
+
+def test_blocks_cover_the_grid_once():
+    library = ProceduralLibrary("merl-sized", random_tables(2, Grid.merl(90, 6, 8)), grid=Grid.merl(90, 6, 8))
+    covered = np.concatenate([np.arange(block.start, block.stop) for block in library.blocks()])
+    np.testing.assert_array_equal(covered, np.arange(library.grid.size))
+
+
+def test_stored_and_procedural_give_the_same(small_library, tmp_path):
+    """The law of the two kinds: the same PCA, the same mix."""
+    source = tmp_path / "files"
+    for name in small_library.names:
+        write_merl(source / f"{name}.binary", small_library.brdf(name))
+    stored = build_library([source], tmp_path / "small.brdflib").library
+    a, b = Pca.fit(small_library), Pca.fit(stored)
+    assert_allclose(a.eigenvalues, b.eigenvalues, rtol=1e-9, atol=1e-9 * a.eigenvalues.max())
+    assert_allclose(a.scores(3), b.scores(3), rtol=1e-6, atol=1e-9 * abs(a.scores(3)).max())
+    recipe = {"material-1": 0.25, "material-4": 0.75}
+    mixes = [mix(library, Recipe.of(library.name, recipe)).values for library in (small_library, stored)]
+    assert_allclose(*mixes, rtol=1e-6)
+
+
+def test_the_checksum_follows_the_samples(folder, tmp_path):
+    first = build_library([folder], tmp_path / "a.brdflib").library
+    again = build_library([folder], tmp_path / "b.brdflib").library
+    assert first.checksum == again.checksum
+    write_merl(folder / "material-2.binary", random_tables(1, TINY, seed=9)["material-0"])
+    assert build_library([folder], tmp_path / "c.brdflib").library.checksum != first.checksum
+
+
+def test_tables_of_two_grids_are_refused(folder, tmp_path):
+    write_merl(folder / "other.binary", random_tables(1, Grid.merl(2, 3, 4))["material-0"])
+    with pytest.raises(LibraryError, match=r"2 different grids .*3 x 4 x 5.*2 x 3 x 4|2 x 3 x 4.*3 x 4 x 5"):
+        build_library([folder], tmp_path / "mixed.brdflib")
+    assert not (tmp_path / "mixed.brdflib").exists()
+
+
+def test_a_folder_without_a_brdf_is_refused(tmp_path):
+    (tmp_path / "README").write_text("nothing here")
+    with pytest.raises(LibraryError, match=r"there is no BRDF in .*README: is text"):
+        build_library([tmp_path], tmp_path / "empty.brdflib")
+
+
+def test_a_library_is_never_written_over_something_else(folder, tmp_path):
+    thesis = tmp_path / "thesis"
+    thesis.mkdir()
+    (thesis / "chapter-1.tex").write_text("precious")
+    with pytest.raises(OutputError, match="exists and is no library: it is not replaced"):
+        build_library([folder], thesis)
+    assert (thesis / "chapter-1.tex").read_text() == "precious"
+
+
+def test_a_damaged_source_leaves_the_old_library(folder, stored):
+    with (folder / "material-3.binary").open("r+b") as file:
+        file.seek(12)
+        file.write(np.array([np.nan]).tobytes())
+    before = stored.checksum
+    with pytest.raises(Exception, match="material-3.binary has a NaN sample"):
+        build_library([folder], stored.path)
+    assert StoredLibrary(stored.path).checksum == before
+    assert sorted(os.listdir(stored.path.parent)) == ["measured", "tiny.brdflib"]
+
+
+def test_building_again_replaces_the_library(folder, stored):
+    (folder / "material-0.binary").unlink()
+    assert build_library([folder], stored.path).library.names == ("material-1", "material-2", "material-3")
+    assert sorted(os.listdir(stored.path.parent)) == ["measured", "tiny.brdflib"]
+
+
+@pytest.mark.parametrize(
+    ("damage", "message"),
+    [
+        (lambda p: (p / "library.json").unlink(), "is no library: there is no library.json in it"),
+        (lambda p: (p / "library.json").write_text("{"), "library.json cannot be read"),
+        (lambda p: (p / "library.json").write_text('{"format": 1}'), "lacks what a library needs"),
+        (lambda p: (p / "tables.npy").unlink(), "tables.npy cannot be read"),
+        (lambda p: (p / "tables.npy").write_bytes(b"\x93NUMPY"), "tables.npy cannot be read"),
+        (lambda p: np.save(p / "tables.npy", np.zeros(3)), r"holds float64 \(3,\): library.json describes"),
+    ],
+)
+def test_a_damaged_library_is_refused(stored, damage, message):
+    damage(stored.path)
+    with pytest.raises(LibraryError, match=message):
+        StoredLibrary(stored.path)
+
+
+def test_a_newer_library_asks_for_an_upgrade(stored):
+    path = stored.path / "library.json"
+    path.write_text(path.read_text().replace('"format": 1', '"format": 2'))
+    with pytest.raises(LibraryError, match="has library format 2, and this version of halfway reads format 1: upgrade"):
+        StoredLibrary(stored.path)
+
+
+def test_a_misspelt_material_gets_the_nearest_names(small_library):
+    with pytest.raises(LibraryError, match=r"'materail-3' is not one of the 9 materials of small: did you mean material-3"):
+        small_library.index("materail-3")
+
+
+def test_the_builtin_library_is_the_hundred_materials():
+    library = open_library("builtin:merl-abc")
+    assert len(library) == 100
+    assert "stand-in" in library.origin.description
+    np.testing.assert_array_equal(np.isnan(library.row(5)).any(axis=0), ~library.grid.mask().ravel())
+
+
+def test_a_builtin_library_can_be_stored_beside_files(tmp_path):
+    """What can be sampled anywhere takes the grid of the tables it stands with."""
+    write_merl(tmp_path / "mine.binary", random_tables(1, TINY)["material-0"])
+    library = build_library([tmp_path / "mine.binary", "builtin:merl-abc"], tmp_path / "both.brdflib").library
+    assert (len(library), library.grid) == (101, TINY)
+
+
+@pytest.mark.parametrize(
+    ("where", "message"),
+    [
+        ("builtin:merl", "merl-abc"),
+        ("nowhere.brdflib", r"there is no library 'nowhere.brdflib': expected a .brdflib folder"),
+        (__file__, "is one file, not a library: `halfway library build"),
+    ],
+)
+def test_what_is_no_library_says_what_is(where, message):
+    with pytest.raises(LibraryError, match=message):
+        open_library(where)
+
+
+def test_the_cache_gives_back_what_was_computed(tmp_path):
+    def once():
+        return {"a": np.arange(3.0)}
+
+    def never():
+        raise AssertionError
+
+    cached(tmp_path, "key", once)
+    np.testing.assert_array_equal(cached(tmp_path, "key", never)["a"], np.arange(3.0))
+
+
+def test_a_damaged_cache_is_replaced(tmp_path):
+    (tmp_path / "key.npz").write_bytes(b"PK\x03\x04 half a file")
+    np.testing.assert_array_equal(cached(tmp_path, "key", lambda: {"a": np.ones(2)})["a"], np.ones(2))
+    np.testing.assert_array_equal(np.load(tmp_path / "key.npz")["a"], np.ones(2))
+
+
+def test_a_cache_that_cannot_be_written_costs_only_time(tmp_path):
+    (tmp_path / "file").write_text("")
+    found = cached(tmp_path / "file" / "cache", "key", lambda: {"a": np.ones(2)})
+    np.testing.assert_array_equal(found["a"], np.ones(2))
