@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 from skimage import color
 
+from halfway.brdf import TabularBrdf
 from halfway.brdf.image_metrics import (
     SHOULDER,
     appearance,
@@ -17,8 +18,121 @@ from halfway.brdf.image_metrics import (
     shown,
     to_lab,
 )
+from halfway.brdf.metrics import MAPPINGS, difference
+from halfway.errors import FormatError
+from halfway.halfdiff import Axis, Grid, cosines
 
+GRID = Grid.merl(6, 5, 8)
 numbers = st.integers(0, 2**32 - 1).map(np.random.default_rng)
+
+
+ALL = [*MAPPINGS, "relative"]
+
+
+def table(values: np.ndarray | float, grid: Grid = GRID) -> TabularBrdf:
+    """A table with these values where both directions are above the horizon."""
+    samples = np.broadcast_to(values, (3, *grid.shape)).astype(np.float32)
+    return TabularBrdf(np.where(grid.mask(), samples, np.float32(np.nan)), grid, name="table")
+
+
+def test_solid_angles_of_all_pairs_of_directions():
+    """A hemisphere of h times one of d, 4 cos(theta_d) on average 2: 8 pi^2, exactly, on any grid."""
+    for grid in (
+        GRID,
+        Grid.merl(),
+        Grid(GRID.axes[:2]),
+        Grid((Axis("phi_h", 3, 2 * np.pi, periodic=True), *GRID.axes)),
+    ):
+        assert grid.solid_angles().shape == grid.shape
+        assert_allclose(grid.solid_angles().sum(), 8 * np.pi**2)
+
+
+def test_solid_angles_above_the_horizon_are_two_hemispheres():
+    """(2 pi)^2, up to the cells that the horizon cuts: half a cell of 90 each way."""
+    merl = Grid.merl()
+    assert_allclose(merl.solid_angles()[merl.mask()].sum(), 4 * np.pi**2, rtol=1 / 180)
+
+
+def test_solid_angles_integrate_a_function_of_both_directions():
+    """The integral of cos_i cos_o over two hemispheres is pi^2."""
+    merl = Grid.merl()
+    angles = merl.centres()
+    cos_i, cos_o = cosines(angles.theta_h, angles.theta_d, angles.phi_d)
+    integral = (merl.solid_angles() * cos_i * cos_o)[merl.mask()].sum()
+    assert_allclose(integral, np.pi**2, rtol=1e-3)
+
+
+def test_one_cell_by_hand():
+    """Four cells, one of them different: sqrt(its share of the solid angle) x the difference of the mapped values."""
+    grid = Grid(
+        (Axis("theta_h", 2, 0.6), Axis("theta_d", 2, 0.8), Axis("phi_d", 1, np.pi, periodic=True))
+    )
+    values = np.full((3, *grid.shape), 0.5)
+    values[:, 1, 0, 0] = 2.0
+    bands_h = [1 - np.cos(0.3), np.cos(0.3) - np.cos(0.6)]
+    bands_d = [np.sin(0.4) ** 2, np.sin(0.8) ** 2 - np.sin(0.4) ** 2]
+    share = bands_h[1] * bands_d[0] / (sum(bands_h) * sum(bands_d))
+    cos_i = np.cos(0.45) * np.cos(0.2)  # phi_d = pi/2 at the centre: the cosines are equal
+    apart = {
+        "cosine": 1.5 * cos_i,
+        "cube-root": (2 * cos_i) ** (1 / 3) - (0.5 * cos_i) ** (1 / 3),
+        "log": np.log((1 + 2 * cos_i) / (1 + 0.5 * cos_i)),
+        "log-relative": np.log((2 * cos_i**2 + 1e-3) / (0.5 * cos_i**2 + 1e-3)),
+    }
+    for metric, expected in apart.items():
+        actual = difference(table(0.5, grid), table(values, grid), metric)
+        assert_allclose(actual.below, np.sqrt(share) * expected, rtol=1e-6)
+        assert np.isnan(actual.grazing)
+    # |(0, 1.5, 0, 0)| / |(.5, .5, .5, .5)|
+    assert_allclose(difference(table(0.5, grid), table(values, grid), "relative").below, 1.5)
+
+
+@pytest.mark.parametrize("metric", ALL)
+def test_a_table_does_not_differ_from_itself(metric):
+    f = table(np.random.default_rng(1).gamma(0.5, size=(3, *GRID.shape)))
+    assert difference(f, f, metric) == (0, 0)
+
+
+@pytest.mark.parametrize("metric", MAPPINGS)
+@given(numbers)
+def test_differences_are_distances(metric: str, rng: np.random.Generator):
+    """Symmetric, and no detour is shorter."""
+    f, g, h = (table(rng.gamma(0.3, size=(3, *GRID.shape))) for _ in range(3))
+    fg, gf, gh, fh = (difference(*pair, metric) for pair in ((f, g), (g, f), (g, h), (f, h)))
+    assert_allclose(fg, gf, rtol=1e-12)
+    assert fh.below <= fg.below + gh.below + 1e-12
+    assert fh.grazing <= fg.grazing + gh.grazing + 1e-12
+
+
+@pytest.mark.parametrize("metric", ALL)
+def test_what_happens_past_80_degrees_is_reported_apart(metric):
+    angles = Grid.merl(20, 20, 8).centres()
+    cosine = np.minimum(*cosines(angles.theta_h, angles.theta_d, angles.phi_d))
+    grid = Grid.merl(20, 20, 8)
+    f, g = table(0.3, grid), table(np.where(cosine < np.cos(np.radians(80)), 5.0, 0.3), grid)
+    assert difference(f, g, metric).below == 0
+    assert difference(f, g, metric).grazing > 0.1
+
+
+@pytest.mark.parametrize("metric", ALL)
+def test_cells_that_one_table_lacks_do_not_count(metric):
+    """A wrong value beside a hole of the other table changes nothing."""
+    f, g, wrong = np.full((3, 3, *GRID.shape), [[[[[0.3]]]], [[[[0.6]]]], [[[[0.6]]]]])
+    f[:, 2] = np.nan
+    wrong[:, 2] = 9.0
+    assert difference(table(f), table(g), metric) == difference(table(f), table(wrong), metric)
+    assert difference(table(g), table(f), metric).below > 0
+
+
+def test_a_black_reference_has_no_relative_error():
+    assert np.isnan(difference(table(0.0), table(1.0), "relative")).all()
+
+
+def test_tables_on_different_grids_are_refused():
+    with pytest.raises(
+        FormatError, match="6 x 5 x 8 grid and 'table' on 6 x 5 x 9: only tables on one grid"
+    ):
+        difference(table(1.0), table(1.0, Grid.merl(6, 5, 9)))
 
 
 def test_white_grey_and_black_have_no_colour():

@@ -2,6 +2,16 @@
 
 from .albedo import directional_albedo, hemisphere
 from .brdf import Brdf, IsotropicModel
+from .metrics import Difference, difference
 from .table import TabularBrdf, tabulate
 
-__all__ = ["Brdf", "IsotropicModel", "TabularBrdf", "directional_albedo", "hemisphere", "tabulate"]
+__all__ = [
+    "Brdf",
+    "Difference",
+    "IsotropicModel",
+    "TabularBrdf",
+    "difference",
+    "directional_albedo",
+    "hemisphere",
+    "tabulate",
+]

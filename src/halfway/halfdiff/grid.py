@@ -58,6 +58,10 @@ class Axis:
         """Angles of the cell centres, shape (size,)."""
         return self.to_angle(np.arange(self.size) + 0.5)
 
+    def edges(self) -> Angle:
+        """Angles of the cells' ends, shape (size + 1,)."""
+        return self.to_angle(np.arange(self.size + 1.0))
+
 
 class Corners(NamedTuple):
     """The cells that a lookup blends."""
@@ -115,6 +119,18 @@ class Grid:
         """True where both directions at the cell's centre are above the horizon, shape `shape`; read-only."""
         return _mask(self)
 
+    def solid_angles(self) -> Angle:
+        """Measure of each cell in an integral over pairs of directions, in sr^2, shape `shape`.
+
+            dwi dwo = 4 cos(theta_d) dwh dwd,   dw = sin(theta) dtheta dphi
+
+        integrated over the cell. An angle without an axis counts whole, and a cell of a periodic axis for all its turns, so
+        the cells sum to 8 pi^2; those on `mask` to (2 pi)^2, up to the cells that the horizon cuts.
+        """
+        measure = reduce(np.multiply.outer, [_measures(axis) for axis in self.axes])
+        absent = set(_WHOLE) - {axis.angle for axis in self.axes}
+        return measure * math.prod(_WHOLE[angle] for angle in absent)
+
     def floor(self, wi: Directions, wo: Directions) -> Corners:
         """The cell that each pair falls into: the lookup of the database's own reader and of pbrt-v2."""
         cells = [
@@ -153,6 +169,21 @@ def _mask(grid: Grid) -> Mask:
     mask = np.broadcast_to((cos_i > 0) & (cos_o > 0), grid.shape).copy()
     mask.flags.writeable = False
     return mask
+
+
+_WHOLE = {"theta_h": 1.0, "phi_h": 2 * np.pi, "theta_d": 2.0, "phi_d": 2 * np.pi}
+"""Integrals of sin(theta_h), 1, 4 cos(theta_d) sin(theta_d), 1 over all of each angle."""
+
+
+def _measures(axis: Axis) -> Angle:
+    edges = axis.edges()
+    match axis.angle:
+        case "theta_h":
+            return -np.diff(np.cos(edges))
+        case "theta_d":
+            return 2 * np.diff(np.sin(edges) ** 2)
+        case _:
+            return np.diff(edges) * 2 * np.pi / (axis.stop if axis.periodic else 2 * np.pi)
 
 
 def _neighbours(axis: Axis, position: Angle) -> list[tuple[Indices, Angle]]:
