@@ -40,7 +40,7 @@ class Block:
     @classmethod
     def of_table(cls, table: TabularBrdf) -> "Block":
         """A table; a cell counts as measured when it is in all three channels."""
-        measured = np.isfinite(table.values).all(axis=0)
+        measured = np.logical_and.reduce(np.isfinite(table.values))
         values = np.where(measured, table.values, np.float32(0))
         return cls.of(np.moveaxis(values, 0, -1), measured)
 

@@ -3,16 +3,20 @@
 Scores are ruled by the highlight and span five decades, so a plain plot is one heap with a few points far away. What is
 shown is compressed along each axis,
 
-    x' = asinh((x - median) / m)      m = median of |x - median|
+    x' = asinh((x - centre) / spread)      centre: median; spread: median of |x - centre|
 
-scaled to [-1, 1]. Straight lines of the space are curves in this picture; the triangulation's edges are drawn straight.
+Straight lines of the space are curves in this picture; the triangulation's edges are drawn straight.
 """
+
+from typing import Literal, TypeAlias
 
 import numpy as np
 
 from ..library import Pca
 from ..space import PaperSpace, Space
-from .schema import Channel, Embedding, SpaceView
+from .schema import Channel, Embedding, ShownAxis, SpaceView
+
+Edges: TypeAlias = list[tuple[int, int]]
 
 CHANNELS: tuple[Channel, Channel, Channel] = ("r", "g", "b")
 
@@ -37,31 +41,20 @@ def joint_scores(pca: Pca, n_components: int = 3) -> np.ndarray:
     return kept * np.sqrt(np.maximum(eigenvalues[::-1][:n_components], 0.0))
 
 
-def _embedding(
-    channel: Channel | str, scores: np.ndarray, edges: list[tuple[int, int]]
-) -> Embedding:
-    n_axes = min(3, scores.shape[1])
-    points = np.zeros((len(scores), 3))
-    points[:, :n_axes] = np.stack([_compressed(x) for x in scores[:, :n_axes].T], axis=1)
-    return Embedding.model_validate(
-        {
-            "channel": channel,
-            "axes": [f"score {i + 1}" for i in range(n_axes)],
-            "points": [tuple(point) for point in points.round(5).tolist()],
-            "edges": edges,
-        }
-    )
+def _embedding(channel: Channel | Literal["all"], points: np.ndarray, edges: Edges) -> Embedding:
+    points = points[:, :3]
+    axes = [_axis(f"score {i + 1}", x) for i, x in enumerate(points.T)]
+    return Embedding(channel=channel, axes=axes, points=points.tolist(), edges=edges)
 
 
-def _compressed(x: np.ndarray) -> np.ndarray:
-    away = x - np.median(x)
-    spread = np.median(np.abs(away))
-    compressed = np.arcsinh(away / spread) if spread > 0 else away
-    low, high = compressed.min(), compressed.max()
-    return 2 * (compressed - low) / (high - low) - 1 if high > low else np.zeros_like(x)
+def _axis(name: str, x: np.ndarray) -> ShownAxis:
+    centre = float(np.median(x))
+    spread = float(np.median(np.abs(x - centre)))
+    # Where most materials coincide the median says nothing: then the extent does.
+    return ShownAxis(name=name, centre=centre, spread=spread or float(np.ptp(x)) or 1.0)
 
 
-def _edges(simplices: np.ndarray) -> list[tuple[int, int]]:
+def _edges(simplices: np.ndarray) -> Edges:
     n = simplices.shape[1]
     pairs = np.concatenate([simplices[:, [i, j]] for i in range(n) for j in range(i + 1, n)])
     unique = np.unique(np.sort(pairs, axis=1), axis=0)

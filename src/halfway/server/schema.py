@@ -82,14 +82,21 @@ class LibrarySummary(Model):
     """Formats of ``/api/export/{format}``."""
 
 
+class ShownAxis(Model):
+    """A coordinate x and how it is shown: as asinh((x - centre) / spread)."""
+
+    name: str
+    centre: float
+    spread: float
+
+
 class Embedding(Model):
-    """The materials as points in three dimensions, to be looked at."""
+    """The materials as points in up to three dimensions, to be looked at."""
 
     channel: Channel | Literal["all"]
-    axes: list[str]
-    """What the three coordinates are."""
-    points: list[Vector]
-    """In the library's order, within [-1, 1]."""
+    axes: list[ShownAxis]
+    points: list[list[float]]
+    """In the library's order; the point of a mix is the mix of the points."""
     edges: list[tuple[int, int]]
     """Of the triangulation; empty where the space has none to show."""
 

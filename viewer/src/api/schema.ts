@@ -1,0 +1,104 @@
+// Written by viewer/scripts/make_types.py from halfway.server.schema. Do not edit.
+
+/** What went wrong, in one line that says what to do. */
+export interface Problem {
+  readonly error: string;
+}
+
+/** One measured material of the library. */
+export interface Material {
+  readonly name: string;
+  readonly colour: readonly [number, number, number];
+}
+
+/** One axis of the grid; see `halfway.halfdiff.Axis`. */
+export interface Axis {
+  readonly angle: string;
+  readonly size: number;
+  readonly stop: number;
+  readonly power: number;
+  readonly periodic: boolean;
+}
+
+/** A space that routes can go through. */
+export interface SpaceSummary {
+  readonly name: string;
+  readonly text: string;
+}
+
+/** A point light; world coordinates have z up, y away from the camera. */
+export interface PointLight {
+  readonly at: readonly [number, number, number];
+  readonly intensity: number;
+}
+
+/** What is being explored. */
+export interface LibrarySummary {
+  readonly format: 1;
+  readonly version: string;
+  readonly name: string;
+  readonly description: string;
+  readonly source: string;
+  readonly licence: string;
+  readonly checksum: string;
+  readonly grid: readonly Axis[];
+  readonly materials: readonly Material[];
+  readonly spaces: readonly SpaceSummary[];
+  readonly paces: readonly string[];
+  readonly thumbnail_size: number;
+  readonly lights: readonly PointLight[];
+  readonly exports: readonly string[];
+}
+
+/** A coordinate x and how it is shown: as asinh((x - centre) / spread). */
+export interface ShownAxis {
+  readonly name: string;
+  readonly centre: number;
+  readonly spread: number;
+}
+
+/** The materials as points in up to three dimensions, to be looked at. */
+export interface Embedding {
+  readonly channel: "r" | "g" | "b" | "all";
+  readonly axes: readonly ShownAxis[];
+  readonly points: readonly (readonly number[])[];
+  readonly edges: readonly (readonly [number, number])[];
+}
+
+/** A space, to be looked at: one embedding, or one per channel. */
+export interface SpaceView {
+  readonly name: string;
+  readonly embeddings: readonly Embedding[];
+}
+
+/** Weights at the knots of a route, per channel: ``[knot][name]``. */
+export interface WeightTable {
+  readonly r: readonly (readonly number[])[];
+  readonly g: readonly (readonly number[])[];
+  readonly b: readonly (readonly number[])[];
+}
+
+/** A route, as weights at knots between which they are linear in t. */
+export interface RouteView {
+  readonly library: string;
+  readonly space: string;
+  readonly pace: string;
+  readonly stops: readonly string[];
+  readonly stop_t: readonly number[];
+  readonly knots: readonly number[];
+  readonly names: readonly string[];
+  readonly weights: WeightTable;
+}
+
+/** A recipe's weights where the channels differ. */
+export interface ChannelWeights {
+  readonly r: Readonly<Record<string, number>>;
+  readonly g: Readonly<Record<string, number>>;
+  readonly b: Readonly<Record<string, number>>;
+}
+
+/** A recipe: barycentric weights over materials. */
+export interface RecipeDocument {
+  readonly library: string;
+  readonly weights: ChannelWeights | Readonly<Record<string, number>>;
+}

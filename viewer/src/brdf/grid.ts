@@ -1,0 +1,29 @@
+// Positions on a grid: the same as `halfway.halfdiff.Axis`. Cell i spans positions [i, i + 1], its sample stands at i + 1/2.
+//
+// Hardware filtering is centred at (i + 1/2) / n too, so position / n is the texture coordinate as it is.
+
+import type { Axis } from "../api/schema";
+
+export function toPosition(axis: Axis, angle: number): number {
+  const share = angle / axis.stop;
+  if (axis.periodic) return ((axis.size * (share - Math.floor(share))) % axis.size) + 0;
+  return axis.size * Math.min(Math.max(share, 0), 1) ** (1 / axis.power);
+}
+
+export function toAngle(axis: Axis, position: number): number {
+  return axis.stop * (position / axis.size) ** axis.power;
+}
+
+/** Two cells and their weights around a position; periodic axes wrap, on the others the outer half cells clamp. */
+export function neighbours(axis: Axis, position: number): readonly [number, number, number] {
+  const lower = Math.floor(position - 0.5);
+  const fraction = position - 0.5 - lower;
+  const last = axis.size - 1;
+  if (axis.periodic) return [(lower + axis.size) % axis.size, (lower + 1) % axis.size, fraction];
+  return [Math.max(lower, 0), Math.min(lower + 1, last), fraction];
+}
+
+/** Does the viewer know how to draw this grid: theta_h, theta_d, phi_d as in a MERL file? */
+export function isDrawable(grid: readonly Axis[]): boolean {
+  return grid.length === 3 && ["theta_h", "theta_d", "phi_d"].every((angle, i) => grid[i]?.angle === angle);
+}

@@ -1,0 +1,58 @@
+// One material's table as the server sends it: RGBA half floats in the order of a MERL file, times a scale per channel.
+// Alpha is 1 where the sample is measured and 0 elsewhere, where RGB is 0 too.
+
+import type { Axis } from "../api/schema";
+import { neighbours, toPosition } from "./grid";
+import { HALF } from "./half";
+import { type Direction, toHalfDiff } from "./halfdiff";
+
+export type Rgb = readonly [number, number, number];
+
+export interface Table {
+  readonly name: string;
+  readonly grid: readonly [Axis, Axis, Axis];
+  readonly halfs: Uint16Array;
+  readonly scale: Rgb;
+}
+
+/** f_r in 1/sr, 0 below the horizon: trilinear, renormalised over the measured corners (`TabularBrdf.eval`). */
+export function evaluate(table: Table, wi: Direction, wo: Direction): Rgb {
+  if (wi[2] <= 0 || wo[2] <= 0) return [0, 0, 0];
+  const { thetaH, thetaD, phiD } = toHalfDiff(wi, wo);
+  const [axisH, axisD, axisP] = table.grid;
+  const h = neighbours(axisH, toPosition(axisH, thetaH));
+  const d = neighbours(axisD, toPosition(axisD, thetaD));
+  const p = neighbours(axisP, toPosition(axisP, phiD));
+  let red = 0;
+  let green = 0;
+  let blue = 0;
+  let measured = 0;
+  for (let corner = 0; corner < 8; corner++) {
+    const [i, j, k] = [corner & 1, (corner >> 1) & 1, (corner >> 2) & 1] as const;
+    const weight = side(h, i) * side(d, j) * side(p, k);
+    const at = 4 * (((h[i] as number) * axisD.size + (d[j] as number)) * axisP.size + (p[k] as number));
+    red += weight * half(table, at);
+    green += weight * half(table, at + 1);
+    blue += weight * half(table, at + 2);
+    measured += weight * half(table, at + 3);
+  }
+  if (measured === 0) return [0, 0, 0];
+  const [r, g, b] = table.scale;
+  return [(r * red) / measured, (g * green) / measured, (b * blue) / measured];
+}
+
+/** The sample of one cell, in 1/sr; null where it is unmeasured. */
+export function sample(table: Table, h: number, d: number, p: number): Rgb | null {
+  const at = 4 * ((h * table.grid[1].size + d) * table.grid[2].size + p);
+  if (half(table, at + 3) === 0) return null;
+  const [r, g, b] = table.scale;
+  return [r * half(table, at), g * half(table, at + 1), b * half(table, at + 2)];
+}
+
+function side([, , fraction]: readonly [number, number, number], i: number): number {
+  return i === 0 ? 1 - fraction : fraction;
+}
+
+function half(table: Table, i: number): number {
+  return HALF[table.halfs[i] as number] as number;
+}

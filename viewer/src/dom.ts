@@ -1,0 +1,93 @@
+// Elements without a framework.
+
+type Child = Node | string | null | undefined | false;
+type Listeners = { [K in keyof HTMLElementEventMap as `on${K}`]?: (event: HTMLElementEventMap[K]) => void };
+type Attributes = Record<string, string | number | boolean | undefined | null>;
+
+/** `el("button.chip", { title: "..." }, { onclick }, ...children)`; an attribute that is false, null or undefined is left out. */
+export function el<K extends keyof HTMLElementTagNameMap>(
+  selector: K | `${K}.${string}`,
+  attributes: Attributes = {},
+  listeners: Listeners = {},
+  ...children: Child[]
+): HTMLElementTagNameMap[K] {
+  const [tag, ...classes] = selector.split(".");
+  const element = document.createElement(tag as K);
+  if (classes.length) element.className = classes.join(" ");
+  for (const [key, value] of Object.entries(attributes)) {
+    if (value === undefined || value === null || value === false) continue;
+    element.setAttribute(key, value === true ? "" : String(value));
+  }
+  for (const [key, listener] of Object.entries(listeners)) {
+    element.addEventListener(key.slice(2), listener as EventListener);
+  }
+  element.append(...children.filter((child): child is Node | string => child !== null && child !== undefined && child !== false));
+  return element;
+}
+
+const ICONS = {
+  play: "M5 3.5v9l7.5-4.5z",
+  pause: "M4.5 3.5h2.5v9H4.5zM9 3.5h2.5v9H9z",
+  plus: "M7.25 3h1.5v4.25H13v1.5H8.75V13h-1.5V8.75H3v-1.5h4.25z",
+  close: "M4.3 3.2 8 6.9l3.7-3.7 1.1 1.1L9.1 8l3.7 3.7-1.1 1.1L8 9.1l-3.7 3.7-1.1-1.1L6.9 8 3.2 4.3z",
+  undo: "M6.2 3 2.5 6.5 6.2 10V7.6h3.3a2.2 2.2 0 0 1 0 4.4H6v1.5h3.5a3.7 3.7 0 0 0 0-7.4H6.2z",
+  redo: "M9.8 3l3.7 3.5L9.8 10V7.6H6.5a2.2 2.2 0 0 0 0 4.4H10v1.5H6.5a3.7 3.7 0 0 1 0-7.4h3.3z",
+  theme: "M8 2a6 6 0 1 0 0 12A6 6 0 0 0 8 2zm0 1.5v9a4.5 4.5 0 0 1 0-9z",
+  link: "M6.6 9.4a2.6 2.6 0 0 1 0-3.7l2-2a2.6 2.6 0 0 1 3.7 3.7l-1 1-1-1 1-1a1.2 1.2 0 0 0-1.7-1.7l-2 2a1.2 1.2 0 0 0 0 1.7zm2.8-2.8a2.6 2.6 0 0 1 0 3.7l-2 2a2.6 2.6 0 0 1-3.7-3.7l1-1 1 1-1 1a1.2 1.2 0 0 0 1.7 1.7l2-2a1.2 1.2 0 0 0 0-1.7z",
+  save: "M7.2 2.5h1.6v5.2l1.9-1.9 1.1 1.1L8 10.7 4.2 6.9l1.1-1.1 1.9 1.9zM3 12h10v1.5H3z",
+  home: "M8 2.6 2.5 7.5l1 1.1.9-.8v5.4h2.8V10h1.6v3.2h2.8V7.8l.9.8 1-1.1z",
+} as const;
+
+export type Icon = keyof typeof ICONS;
+
+export function icon(name: Icon): SVGSVGElement {
+  const namespace = "http://www.w3.org/2000/svg";
+  const svg = document.createElementNS(namespace, "svg");
+  svg.setAttribute("viewBox", "0 0 16 16");
+  svg.setAttribute("aria-hidden", "true");
+  const path = document.createElementNS(namespace, "path");
+  path.setAttribute("d", ICONS[name]);
+  svg.append(path);
+  return svg;
+}
+
+export function iconButton(name: Icon, label: string, onclick: () => void): HTMLButtonElement {
+  return el("button.icon", { type: "button", title: label, "aria-label": label }, { onclick }, icon(name));
+}
+
+/** Choices of which exactly one holds. */
+export function segments<T extends string>(
+  label: string,
+  options: readonly (readonly [T, string])[],
+  choose: (value: T) => void,
+): { element: HTMLElement; mark: (value: T) => void } {
+  const buttons = options.map(([value, text]) =>
+    el("button", { type: "button", "data-value": value }, { onclick: () => choose(value) }, text),
+  );
+  const mark = (value: T) => {
+    for (const button of buttons) button.setAttribute("aria-pressed", String(button.dataset.value === value));
+  };
+  return { element: el("div.segments", { role: "group", "aria-label": label }, {}, ...buttons), mark };
+}
+
+/** Call `draw` with the size in device pixels now and whenever the element changes it. */
+export function onResize(element: HTMLElement, draw: (width: number, height: number, ratio: number) => void): void {
+  new ResizeObserver(() => {
+    const ratio = Math.min(window.devicePixelRatio || 1, 2);
+    const { clientWidth, clientHeight } = element;
+    if (clientWidth > 0 && clientHeight > 0) {
+      draw(Math.round(clientWidth * ratio), Math.round(clientHeight * ratio), ratio);
+    }
+  }).observe(element);
+}
+
+/** A custom property of the style sheet. */
+export function style(name: string): string {
+  return getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+}
+
+export function download(blob: Blob, name: string): void {
+  const url = URL.createObjectURL(blob);
+  el("a", { href: url, download: name }).click();
+  setTimeout(() => URL.revokeObjectURL(url), 10_000);
+}

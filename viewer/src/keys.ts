@@ -1,0 +1,27 @@
+// The keyboard: / searches, space plays, arrows move t, the rest is in the table.
+
+import type { Context } from "./main";
+
+const STEP = 0.01;
+
+export function listenToKeys({ store, actions }: Context): void {
+  document.addEventListener("keydown", (event) => {
+    const target = event.target as HTMLElement;
+    if (target.matches("input:not([type=range]), select")) return;
+    const command = event.ctrlKey || event.metaKey;
+    if (command && event.key.toLowerCase() === "z") (event.shiftKey ? actions.redo : actions.undo)();
+    else if (command || event.altKey) return;
+    else if (event.key === "/") document.querySelector<HTMLInputElement>("#search")?.focus();
+    else if (event.key === " " && !target.matches("button")) store.set({ playing: !store.get().playing });
+    else if (event.key === "ArrowRight" && !target.matches("input")) actions.setT(store.get().t + step(event));
+    else if (event.key === "ArrowLeft" && !target.matches("input")) actions.setT(store.get().t - step(event));
+    else if (event.key === "Home" && !target.matches("input")) actions.setT(0);
+    else if (event.key === "End" && !target.matches("input")) actions.setT(1);
+    else return;
+    event.preventDefault();
+  });
+}
+
+function step(event: KeyboardEvent): number {
+  return event.shiftKey ? 10 * STEP : STEP;
+}

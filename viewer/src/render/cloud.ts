@@ -1,0 +1,196 @@
+// The materials as small lit spheres in three dimensions, with the triangulation, the present simplex and the route.
+
+import {
+  BufferAttribute,
+  BufferGeometry,
+  Color,
+  DataTexture,
+  GLSL3,
+  LinearFilter,
+  LineBasicMaterial,
+  LineSegments,
+  PerspectiveCamera,
+  Points,
+  RawShaderMaterial,
+  RGBAFormat,
+  Scene,
+  UnsignedByteType,
+  Vector2,
+  Vector3,
+  WebGLRenderer,
+} from "three";
+import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import { Line2 } from "three/addons/lines/Line2.js";
+import { LineGeometry } from "three/addons/lines/LineGeometry.js";
+import { LineMaterial } from "three/addons/lines/LineMaterial.js";
+
+import type { Embedding } from "../api/schema";
+import type { Thumbnails } from "../thumbnails";
+import { Display } from "./display";
+import fragment from "./glsl/cloud.frag.glsl?raw";
+import vertex from "./glsl/cloud.vert.glsl?raw";
+
+/** How much a material is to be seen. */
+export interface Look {
+  readonly ring: "none" | "stop" | "hovered";
+  readonly dim: boolean;
+}
+
+const PIXELS = 26;
+
+export class Cloud {
+  readonly camera = new PerspectiveCamera(32, 1, 0.1, 50);
+  readonly controls: OrbitControls;
+  display: Display | null = null;
+  private readonly renderer: WebGLRenderer;
+  private readonly scene = new Scene();
+  private readonly points: Points<BufferGeometry, RawShaderMaterial>;
+  private readonly edges = new LineSegments(new BufferGeometry(), new LineBasicMaterial({ transparent: true, opacity: 0.13, depthWrite: false }));
+  private readonly simplex = new LineSegments(new BufferGeometry(), new LineBasicMaterial({ transparent: true, opacity: 0.8, depthWrite: false }));
+  private readonly route = new Line2(new LineGeometry(), new LineMaterial({ linewidth: 2.5, worldUnits: false, depthTest: true }));
+  private readonly size = new Vector2(1, 1);
+  private ratio = 1;
+
+  constructor(canvas: HTMLCanvasElement, names: readonly string[], thumbnails: Thumbnails, onMove: () => void) {
+    this.renderer = new WebGLRenderer({ canvas, alpha: true, antialias: true });
+    this.camera.up.set(0, 0, 1);
+    this.camera.position.set(2.4, -4.6, 1.9);
+    this.controls = new OrbitControls(this.camera, canvas);
+    this.controls.enableDamping = false;
+    this.controls.minDistance = 0.6;
+    this.controls.maxDistance = 14;
+    this.controls.addEventListener("change", onMove);
+    const columns = Math.ceil(Math.sqrt(names.length));
+    this.points = new Points(
+      new BufferGeometry(),
+      new RawShaderMaterial({
+        glslVersion: GLSL3,
+        vertexShader: vertex,
+        fragmentShader: fragment,
+        uniforms: {
+          uAtlas: { value: atlas(names, thumbnails, columns) },
+          uColumns: { value: columns },
+          uPixels: { value: PIXELS },
+          uDistance: { value: 5.5 },
+          uStop: { value: new Color() },
+          uHovered: { value: new Color() },
+          uGround: { value: new Color() },
+        },
+      }),
+    );
+    this.points.geometry.setAttribute("tile", new BufferAttribute(Float32Array.from(names, (_, i) => i), 1));
+    this.points.geometry.setAttribute("look", new BufferAttribute(new Float32Array(2 * names.length), 2));
+    for (const object of [this.points, this.edges, this.simplex, this.route]) object.frustumCulled = false;
+    this.edges.renderOrder = -2;
+    this.simplex.renderOrder = -1;
+    this.scene.add(this.edges, this.simplex, this.route, this.points);
+    this.route.visible = false;
+  }
+
+  embed(embedding: Embedding): void {
+    this.display = new Display(embedding);
+    const positions = this.display.points.flatMap((p) => p.toArray());
+    this.points.geometry.setAttribute("position", new BufferAttribute(new Float32Array(positions), 3));
+    this.edges.geometry.dispose();
+    this.edges.geometry = segments(embedding.edges.map(([a, b]) => [this.display!.points[a]!, this.display!.points[b]!] as const));
+  }
+
+  setSimplex(corners: readonly Vector3[]): void {
+    const pairs = corners.flatMap((a, i) => corners.slice(i + 1).map((b) => [a, b] as const));
+    this.simplex.geometry.dispose();
+    this.simplex.geometry = segments(pairs);
+  }
+
+  setRoute(points: readonly Vector3[]): void {
+    this.route.visible = points.length > 1;
+    if (points.length < 2) return;
+    this.route.geometry.dispose();
+    this.route.geometry = new LineGeometry();
+    this.route.geometry.setPositions(points.flatMap((p) => p.toArray()));
+  }
+
+  setLooks(looks: readonly Look[]): void {
+    const attribute = this.points.geometry.getAttribute("look") as BufferAttribute;
+    looks.forEach(({ ring, dim }, i) => {
+      attribute.setXY(i, ring === "hovered" ? 2 : ring === "stop" ? 1 : 0, dim ? 1 : 0);
+    });
+    attribute.needsUpdate = true;
+  }
+
+  setColours(line: string, text: string, accent: string, ground: string): void {
+    this.edges.material.color.set(text);
+    this.simplex.material.color.set(text);
+    this.route.material.color.set(accent);
+    const { uStop, uHovered, uGround } = this.points.material.uniforms;
+    for (const [uniform, css] of [[uStop, accent], [uHovered, text], [uGround, ground]] as const) {
+      // The shader writes to the screen as it is: no conversion to linear light.
+      (uniform!.value as Color).setStyle(css, "srgb-linear" as never);
+    }
+    void line;
+  }
+
+  resize(width: number, height: number, ratio: number): void {
+    this.ratio = ratio;
+    this.size.set(width, height);
+    this.renderer.setPixelRatio(1);
+    this.renderer.setSize(width, height, false);
+    this.camera.aspect = width / height;
+    // A narrow panel looks from further away, so that the cloud stays in it.
+    this.camera.fov = width < height ? 2 * Math.atan((Math.tan((16 * Math.PI) / 180) * height) / width) * (180 / Math.PI) : 32;
+    this.camera.updateProjectionMatrix();
+    this.points.material.uniforms.uPixels!.value = PIXELS * ratio * Math.min(1.5, Math.max(0.75, Math.min(width, height) / ratio / 480));
+    this.route.material.linewidth = 2.5 * ratio;
+    this.route.material.resolution.copy(this.size);
+  }
+
+  draw(): void {
+    this.renderer.render(this.scene, this.camera);
+  }
+
+  /** Where a point is on the panel, in CSS pixels, and how far from the camera. */
+  project(point: Vector3): { x: number; y: number; depth: number } {
+    const p = point.clone().project(this.camera);
+    const { x: width, y: height } = this.size;
+    return { x: ((p.x + 1) / 2) * (width / this.ratio), y: ((1 - p.y) / 2) * (height / this.ratio), depth: p.z };
+  }
+
+  /** The material at a place of the panel, in CSS pixels; null beside all of them. */
+  pick(x: number, y: number): number | null {
+    if (this.display === null) return null;
+    let best: { i: number; depth: number } | null = null;
+    this.display.points.forEach((point, i) => {
+      const at = this.project(point);
+      const radius = this.radius(point) + 2;
+      if (Math.hypot(at.x - x, at.y - y) > radius || at.depth > 1) return;
+      if (best === null || at.depth < best.depth) best = { i, depth: at.depth };
+    });
+    return (best as { i: number } | null)?.i ?? null;
+  }
+
+  /** Of a material's sphere, in CSS pixels. */
+  radius(point: Vector3): number {
+    const pixels = this.points.material.uniforms.uPixels!.value as number;
+    return ((0.5 * pixels) / this.ratio) * (5.5 / point.distanceTo(this.camera.position));
+  }
+}
+
+function segments(pairs: readonly (readonly [Vector3, Vector3])[]): BufferGeometry {
+  const positions = pairs.flatMap(([a, b]) => [...a.toArray(), ...b.toArray()]);
+  return new BufferGeometry().setAttribute("position", new BufferAttribute(new Float32Array(positions), 3));
+}
+
+function atlas(names: readonly string[], thumbnails: Thumbnails, columns: number): DataTexture {
+  const side = thumbnails.size;
+  const bytes = new Uint8Array(4 * (columns * side) ** 2);
+  names.forEach((name, i) => {
+    const { data } = thumbnails.of(name);
+    const [left, top] = [(i % columns) * side, Math.floor(i / columns) * side];
+    for (let y = 0; y < side; y++) {
+      bytes.set(data.subarray(4 * y * side, 4 * (y + 1) * side), 4 * ((top + y) * columns * side + left));
+    }
+  });
+  const texture = new DataTexture(bytes, columns * side, columns * side, RGBAFormat, UnsignedByteType);
+  texture.minFilter = texture.magFilter = LinearFilter;
+  texture.needsUpdate = true;
+  return texture;
+}

@@ -1,0 +1,15 @@
+// A mesh for the geometry buffer, in world coordinates.
+uniform mat4 modelMatrix;
+uniform mat4 viewMatrix;
+uniform mat4 projectionMatrix;
+in vec3 position;
+in vec3 normal;
+out vec3 vNormal;
+out vec3 vPosition;
+
+void main() {
+  vec4 world = modelMatrix * vec4(position, 1.0);
+  vNormal = mat3(modelMatrix) * normal;
+  vPosition = world.xyz;
+  gl_Position = projectionMatrix * viewMatrix * world;
+}

@@ -1,0 +1,233 @@
+// Basis images on the graphics card, and recipes made from them.
+//
+// Each material has a layer of one array texture: its picture under the present light and camera, as a running mean
+// over samples. All materials use the same points, and no density depends on t, so a recipe's picture is a weighted sum of
+// layers: moving t is one pass of dot products, without noise starting over.
+
+import {
+  CustomBlending,
+  ConstantAlphaFactor,
+  FloatType,
+  NearestFilter,
+  NoBlending,
+  OneMinusConstantAlphaFactor,
+  RGBAFormat,
+  Vector3,
+  Vector4,
+  WebGLArrayRenderTarget,
+  WebGLRenderer,
+} from "three";
+
+import type { PointLight } from "../api/schema";
+import type { Ingredient } from "../recipe";
+import type { Environment } from "./environment";
+import { compositeShader, MAX_TERMS, Pass, pointsShader, studioShader } from "./shaders";
+import { type Orbit, type Shape, Stage } from "./stage";
+import type { TableOnCard, Tables } from "./tables";
+
+export type Light = "studio" | "points";
+
+export const TARGET_SAMPLES: Record<Light, number> = { studio: 192, points: 16 };
+const SAMPLES_A_PASS: Record<Light, number> = { studio: 2, points: 1 };
+const LAYER_BYTES = 400e6;
+const MIN_LAYERS = 16;
+
+interface Layer {
+  readonly index: number;
+  samples: number;
+  used: number;
+}
+
+export class Painter {
+  readonly stage = new Stage();
+  private readonly renderer: WebGLRenderer;
+  private target: WebGLArrayRenderTarget | null = null;
+  private readonly layers = new Map<string, Layer>();
+  private light: Light = "points";
+  private clock = 0;
+  private buffered = -1;
+  private shown: readonly Ingredient[] = [];
+  private readonly points: Pass;
+  private readonly studio: Pass;
+  private readonly composite: Pass;
+
+  constructor(
+    canvas: HTMLCanvasElement,
+    private readonly tables: Tables,
+    lights: readonly PointLight[],
+    environment: Environment,
+  ) {
+    this.renderer = new WebGLRenderer({ canvas, alpha: true, antialias: false, preserveDrawingBuffer: true });
+    this.renderer.autoClear = false;
+    if (!this.renderer.extensions.has("EXT_color_buffer_float") || !this.renderer.extensions.has("EXT_float_blend")) {
+      throw new Error("This browser cannot draw into float textures (EXT_color_buffer_float, EXT_float_blend).");
+    }
+    const shared = () => ({
+      uTable: { value: null },
+      uScale: { value: new Vector3() },
+      uNormal: { value: this.stage.target.textures[0] },
+      uPosition: { value: this.stage.target.textures[1] },
+      uEye: { value: this.stage.camera.position },
+    });
+    const accumulate = {
+      blending: CustomBlending,
+      blendSrc: ConstantAlphaFactor,
+      blendDst: OneMinusConstantAlphaFactor,
+      transparent: true,
+    } as const;
+    this.points = new Pass(
+      pointsShader,
+      {
+        ...shared(),
+        uLights: { value: lights.map(({ at: [x, y, z] }) => new Vector3(x, y, z)) },
+        uIntensities: { value: lights.map(({ intensity }) => intensity) },
+      },
+      accumulate,
+    );
+    this.studio = new Pass(
+      studioShader,
+      {
+        ...shared(),
+        uEnv: { value: environment.picture },
+        uEnvCdf: { value: environment.cdf },
+        uLobe: { value: null },
+        uFirst: { value: 0 },
+        uSamples: { value: SAMPLES_A_PASS.studio },
+      },
+      accumulate,
+    );
+    this.composite = new Pass(
+      compositeShader,
+      {
+        uBasis: { value: null },
+        uTerms: { value: Array.from({ length: MAX_TERMS }, () => new Vector4()) },
+        uCount: { value: 0 },
+        uExposure: { value: 1 },
+      },
+      { blending: NoBlending },
+    );
+  }
+
+  resize(width: number, height: number): void {
+    if (this.target?.width === width && this.target.height === height) return;
+    this.renderer.setPixelRatio(1);
+    this.renderer.setSize(width, height, false);
+    this.stage.resize(width, height);
+    this.target?.dispose();
+    const nLayers = Math.min(MAX_TERMS, Math.max(MIN_LAYERS, Math.floor(LAYER_BYTES / (16 * width * height))));
+    this.target = new WebGLArrayRenderTarget(width, height, nLayers, {
+      type: FloatType,
+      format: RGBAFormat,
+      minFilter: NearestFilter,
+      magFilter: NearestFilter,
+      depthBuffer: false,
+    });
+    this.composite.uniforms.uBasis!.value = this.target.texture;
+    this.layers.clear();
+    this.shown = [];
+    this.buffered = -1;
+  }
+
+  /** Look from elsewhere, at something else or in another light: all samples start over. */
+  look(shape: Shape, orbit: Orbit, light: Light): void {
+    this.stage.look(shape, orbit);
+    this.light = light;
+    this.buffered = -1;
+    for (const layer of this.layers.values()) layer.samples = 0;
+  }
+
+  /** The fewest samples that any of these materials has. */
+  samples(names: readonly string[]): number {
+    return Math.min(...names.map((name) => this.layers.get(name)?.samples ?? 0));
+  }
+
+  get targetSamples(): number {
+    return TARGET_SAMPLES[this.light];
+  }
+
+  /** Add samples to up to `passes` layers, first to those that have the fewest; false when nothing is left to do. */
+  improve(names: readonly string[], passes: number, target = this.targetSamples): boolean {
+    for (let pass = 0; pass < passes; pass++) {
+      const next = this.neediest(names, target);
+      if (next === undefined) return false;
+      this.addSamples(next.layer, next.table);
+    }
+    return true;
+  }
+
+  /** Show a recipe; where a material has no picture yet, what was shown before stays. */
+  show(recipe: readonly Ingredient[], exposure: number): boolean {
+    const ready = recipe.length > 0 && this.samples(recipe.map(({ name }) => name)) > 0;
+    if (ready) this.shown = recipe;
+    const terms = this.composite.uniforms.uTerms!.value as Vector4[];
+    const drawable = this.shown.filter(({ name }) => (this.layers.get(name)?.samples ?? 0) > 0);
+    if (drawable.length < this.shown.length) return false;
+    drawable.slice(0, MAX_TERMS).forEach(({ name, weight: [r, g, b] }, i) => {
+      terms[i]!.set(r, g, b, this.layers.get(name)!.index);
+    });
+    this.composite.uniforms.uCount!.value = Math.min(drawable.length, MAX_TERMS);
+    this.composite.uniforms.uExposure!.value = exposure;
+    this.composite.draw(this.renderer, null);
+    return ready;
+  }
+
+  private neediest(names: readonly string[], target: number): { layer: Layer; table: TableOnCard } | undefined {
+    let best: { layer: Layer; table: TableOnCard } | undefined;
+    for (const name of names) {
+      const table = this.tables.get(name);
+      if (table === undefined) continue;
+      const layer = this.layers.get(name) ?? this.newLayer(name, names);
+      if (layer === undefined || layer.samples >= target) continue;
+      if (best === undefined || layer.samples < best.layer.samples) best = { layer, table };
+    }
+    return best;
+  }
+
+  private newLayer(name: string, needed: readonly string[]): Layer | undefined {
+    if (this.target === null) return undefined;
+    let index = this.layers.size;
+    if (index >= this.target.depth) {
+      const spare = [...this.layers].filter(([other]) => !needed.includes(other) && !this.isShown(other));
+      const oldest = spare.sort(([, a], [, b]) => a.used - b.used)[0];
+      if (oldest === undefined) return undefined;
+      this.layers.delete(oldest[0]);
+      index = oldest[1].index;
+    }
+    const layer = { index, samples: 0, used: this.clock++ };
+    this.layers.set(name, layer);
+    return layer;
+  }
+
+  private isShown(name: string): boolean {
+    return this.shown.some((ingredient) => ingredient.name === name);
+  }
+
+  private addSamples(layer: Layer, { texture, scale, lobe }: TableOnCard): void {
+    const count = SAMPLES_A_PASS[this.light];
+    if (this.buffered !== layer.samples) {
+      this.buffered = layer.samples;
+      // The middle of the pixel first: the picture while orbiting does not shake.
+      this.stage.draw(this.renderer, jitter(layer.samples / count, 0), jitter(layer.samples / count, 1));
+    }
+    const pass = this.light === "studio" ? this.studio : this.points;
+    pass.uniforms.uTable!.value = texture;
+    (pass.uniforms.uScale!.value as Vector3).copy(scale);
+    if (this.light === "studio") {
+      pass.uniforms.uLobe!.value = lobe;
+      pass.uniforms.uFirst!.value = layer.samples;
+    }
+    pass.material.blending = layer.samples === 0 ? NoBlending : CustomBlending;
+    pass.material.blendAlpha = count / (layer.samples + count);
+    pass.draw(this.renderer, this.target as never, layer.index);
+    layer.samples += count;
+    layer.used = this.clock++;
+  }
+}
+
+/** 2^32 / g and 2^32 / g^2 with g^3 = g + 1. */
+const JITTER = [0xc13fa9a9, 0x91e10da5] as const;
+
+/** The i-th point of a two-dimensional additive recurrence, shifted to start in the middle. */
+function jitter(i: number, dimension: 0 | 1): number {
+  return ((Math.imul(i, JITTER[dimension]) + 0x80000000) >>> 0) / 4294967296;
+}

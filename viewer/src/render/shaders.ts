@@ -1,0 +1,87 @@
+// Shaders put together from their files, and the pass that draws one over a whole picture.
+
+import {
+  BufferAttribute,
+  BufferGeometry,
+  Camera,
+  GLSL3,
+  type IUniform,
+  Mesh,
+  RawShaderMaterial,
+  Scene,
+  type ShaderMaterialParameters,
+  type WebGLRenderer,
+  type WebGLRenderTarget,
+} from "three";
+
+import brdf from "./glsl/brdf.glsl?raw";
+import composite from "./glsl/composite.frag.glsl?raw";
+import environment from "./glsl/environment.glsl?raw";
+import halfdiff from "./glsl/halfdiff.glsl?raw";
+import lobe from "./glsl/lobe.glsl?raw";
+import meshFragment from "./glsl/mesh.frag.glsl?raw";
+import meshVertex from "./glsl/mesh.vert.glsl?raw";
+import random from "./glsl/random.glsl?raw";
+import screen from "./glsl/screen.vert.glsl?raw";
+import shade from "./glsl/shade.frag.glsl?raw";
+import sphere from "./glsl/sphere.frag.glsl?raw";
+
+export const MAX_TERMS = 32;
+/** 2^32 / g^j with g^7 = g + 1, made odd. */
+export const STEPS = [0xe60e2b73, 0xcebd76d9, 0xb9c9aa3b, 0xa6f5777f, 0x9609c71f, 0x86d516e5] as const;
+
+export type Uniforms = Record<string, IUniform>;
+
+const HEAD = "precision highp float;\nprecision highp int;\n";
+
+export const pointsShader = HEAD + "#define POINTS\n" + halfdiff + brdf + shade;
+export const studioShader =
+  HEAD +
+  halfdiff +
+  brdf +
+  random.replace("@STEPS@", STEPS.map((step) => `${step}u`).join(", ")) +
+  environment +
+  lobe +
+  shade;
+export const sphereShader = HEAD + sphere;
+export const compositeShader = HEAD + composite.replace("@TERMS@", String(MAX_TERMS));
+
+export function meshMaterial(): RawShaderMaterial {
+  return new RawShaderMaterial({
+    glslVersion: GLSL3,
+    vertexShader: HEAD + meshVertex,
+    fragmentShader: HEAD + meshFragment,
+    side: 2,
+  });
+}
+
+/** A fragment shader over the whole picture. */
+export class Pass {
+  readonly uniforms: Uniforms;
+  readonly material: RawShaderMaterial;
+  private readonly scene = new Scene();
+  private readonly camera = new Camera();
+
+  constructor(fragmentShader: string, uniforms: Uniforms, options: ShaderMaterialParameters = {}) {
+    this.uniforms = uniforms;
+    this.material = new RawShaderMaterial({
+      glslVersion: GLSL3,
+      vertexShader: HEAD + screen,
+      fragmentShader,
+      uniforms,
+      depthTest: false,
+      depthWrite: false,
+      ...options,
+    });
+    const triangle = new BufferGeometry();
+    triangle.setAttribute("position", new BufferAttribute(new Float32Array([-1, -1, 0, 3, -1, 0, -1, 3, 0]), 3));
+    const mesh = new Mesh(triangle, this.material);
+    mesh.frustumCulled = false;
+    this.scene.add(mesh);
+  }
+
+  draw(renderer: WebGLRenderer, target: WebGLRenderTarget | null, layer = 0): void {
+    renderer.setRenderTarget(target, layer);
+    renderer.render(this.scene, this.camera);
+  }
+}

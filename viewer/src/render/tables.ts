@@ -1,0 +1,111 @@
+// Tables on the graphics card: fetched when wanted, most wanted first, the least recently wanted let go.
+
+import {
+  ClampToEdgeWrapping,
+  Data3DTexture,
+  DataTexture,
+  FloatType,
+  HalfFloatType,
+  LinearFilter,
+  NearestFilter,
+  RedFormat,
+  RepeatWrapping,
+  RGBAFormat,
+  Vector3,
+} from "three";
+
+import * as api from "../api/client";
+import type { Axis } from "../api/schema";
+import { lobe } from "../brdf/lobe";
+import type { Table } from "../brdf/table";
+
+export interface TableOnCard {
+  readonly table: Table;
+  readonly texture: Data3DTexture;
+  readonly scale: Vector3;
+  readonly lobe: DataTexture;
+}
+
+/** 11.7 MB each on the MERL grid. */
+const MAX_TABLES = 24;
+const AT_ONCE = 2;
+
+export class Tables {
+  /** Runs when a table has come, or could not. */
+  onChange: (problem: string | null) => void = () => {};
+  private readonly loaded = new Map<string, TableOnCard>();
+  private readonly loading = new Set<string>();
+  private readonly failed = new Set<string>();
+  private wanted: readonly string[] = [];
+
+  constructor(private readonly grid: readonly [Axis, Axis, Axis]) {}
+
+  get(name: string): TableOnCard | undefined {
+    return this.loaded.get(name);
+  }
+
+  /** Materials in order of urgency; what is not among them may go. */
+  want(names: readonly string[]): void {
+    this.wanted = names.slice(0, MAX_TABLES);
+    this.fetchNext();
+  }
+
+  private fetchNext(): void {
+    for (const name of this.wanted) {
+      if (this.loading.size >= AT_ONCE) return;
+      if (this.loaded.has(name) || this.loading.has(name) || this.failed.has(name)) continue;
+      this.loading.add(name);
+      void this.fetch(name);
+    }
+  }
+
+  private async fetch(name: string): Promise<void> {
+    let problem: string | null = null;
+    try {
+      const block = await api.table(name);
+      this.makeRoom();
+      this.loaded.set(name, toCard({ name, grid: this.grid, halfs: block.halfs, scale: block.scale }));
+    } catch (error) {
+      problem = error instanceof Error ? error.message : String(error);
+      // Not asked for again by itself: the person may reload.
+      this.failed.add(name);
+    }
+    this.loading.delete(name);
+    this.onChange(problem);
+    this.fetchNext();
+  }
+
+  private makeRoom(): void {
+    for (const [name, { texture, lobe }] of this.loaded) {
+      if (this.loaded.size < MAX_TABLES) return;
+      if (this.wanted.includes(name)) continue;
+      texture.dispose();
+      lobe.dispose();
+      this.loaded.delete(name);
+    }
+  }
+}
+
+function toCard(table: Table): TableOnCard {
+  const [thetaH, thetaD, phiD] = table.grid;
+  const texture = new Data3DTexture(table.halfs, phiD.size, thetaD.size, thetaH.size);
+  texture.format = RGBAFormat;
+  texture.type = HalfFloatType;
+  texture.minFilter = texture.magFilter = LinearFilter;
+  texture.wrapS = RepeatWrapping;
+  texture.wrapT = texture.wrapR = ClampToEdgeWrapping;
+  texture.needsUpdate = true;
+  return { table, texture, scale: new Vector3(...table.scale), lobe: lobeTexture(table) };
+}
+
+function lobeTexture(table: Table): DataTexture {
+  const { cdf, pdf } = lobe(table);
+  const n = pdf.length;
+  const rows = new Float32Array(2 * n);
+  rows.set(cdf.subarray(1), 0);
+  rows.set(pdf, n);
+  const texture = new DataTexture(rows, n, 2, RedFormat, FloatType);
+  texture.minFilter = texture.magFilter = NearestFilter;
+  texture.needsUpdate = true;
+  return texture;
+}

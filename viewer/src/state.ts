@@ -1,0 +1,154 @@
+// What the page shows, and the acts that change it.
+
+import type { LibrarySummary, RouteView, SpaceView } from "./api/schema";
+import { type Ingredient, recipeAt } from "./recipe";
+import type { Light } from "./render/painter";
+import { HOME, type Orbit, type Shape } from "./render/stage";
+import { createStore, type Store } from "./store";
+
+export type Theme = "auto" | "light" | "dark";
+
+export interface State {
+  readonly library: LibrarySummary;
+  readonly space: string;
+  readonly pace: string;
+  readonly stops: readonly string[];
+  /** The stop that the next chosen material replaces; `stops.length` adds one. */
+  readonly slot: number;
+  readonly t: number;
+  readonly playing: boolean;
+  readonly shape: Shape;
+  readonly light: Light;
+  readonly exposure: number;
+  readonly orbit: Orbit;
+  readonly theme: Theme;
+  /** The material under the pointer, anywhere on the page. */
+  readonly hovered: string | null;
+  /** Materials whose names match what is searched; null when nothing is. */
+  readonly found: readonly string[] | null;
+  readonly view: SpaceView | null;
+  readonly route: RouteView | null;
+  readonly recipe: readonly Ingredient[];
+  readonly problem: string | null;
+  readonly past: readonly Place[];
+  readonly future: readonly Place[];
+}
+
+/** What undo goes back to. */
+type Place = Pick<State, "space" | "pace" | "stops">;
+
+/** What a link carries. */
+export type Linked = Pick<State, "space" | "pace" | "stops" | "t" | "shape" | "light" | "exposure" | "orbit">;
+
+export const EXPOSURES = [-4, 4] as const;
+
+export function createState(library: LibrarySummary, linked: Partial<Linked>, theme: Theme): Store<State> {
+  const stops = linked.stops ?? defaultStops(library);
+  return createStore<State>({
+    library,
+    space: library.spaces[0]?.name ?? "",
+    pace: library.paces[0] ?? "",
+    t: 0.5,
+    shape: "sphere",
+    light: "studio",
+    exposure: 0,
+    orbit: HOME,
+    ...linked,
+    stops,
+    slot: stops.length - 1,
+    playing: false,
+    theme,
+    hovered: null,
+    found: null,
+    view: null,
+    route: null,
+    recipe: [],
+    problem: null,
+    past: [],
+    future: [],
+  });
+}
+
+export class Actions {
+  constructor(private readonly store: Store<State>) {}
+
+  setT = (t: number): void => {
+    const { route } = this.store.get();
+    const clamped = Math.min(Math.max(t, 0), 1);
+    this.store.set({ t: clamped, ...(route && { recipe: recipeAt(route, clamped) }) });
+  };
+
+  setRoute = (route: RouteView): void => {
+    this.store.set({ route, recipe: recipeAt(route, this.store.get().t), problem: null });
+  };
+
+  /** Put a material where the chosen slot is, and choose the other end next. */
+  choose = (name: string): void => {
+    const { stops, slot } = this.store.get();
+    if (stops[slot - 1] === name || stops[slot + 1] === name || stops[slot] === name) return;
+    const next = [...stops.slice(0, slot), name, ...stops.slice(slot + 1)];
+    this.go({ stops: next });
+    this.setT(slot / Math.max(1, next.length - 1));
+  };
+
+  selectSlot = (slot: number): void => {
+    const { stops } = this.store.get();
+    this.store.set({ slot });
+    if (slot < stops.length) this.setT(slot / (stops.length - 1));
+  };
+
+  removeStop = (i: number): void => {
+    const { stops } = this.store.get();
+    if (stops.length <= 2) return;
+    // Two equal neighbours that meet become one.
+    const next = stops.filter((_, j) => j !== i).filter((name, j, all) => name !== all[j - 1]);
+    if (next.length >= 2) this.go({ stops: next });
+  };
+
+  moveStop = (from: number, to: number): void => {
+    const next = [...this.store.get().stops];
+    const [moved] = next.splice(from, 1);
+    if (moved === undefined || to < 0 || to > next.length) return;
+    next.splice(to, 0, moved);
+    if (next.every((name, j) => name !== next[j - 1])) this.go({ stops: next });
+  };
+
+  setSpace = (space: string): void => this.go({ space });
+
+  setPace = (pace: string): void => this.go({ pace });
+
+  undo = (): void => {
+    const { past, future } = this.store.get();
+    const place = past.at(-1);
+    if (place) this.store.set({ ...place, past: past.slice(0, -1), future: [this.place(), ...future], slot: place.stops.length - 1 });
+  };
+
+  redo = (): void => {
+    const { past, future } = this.store.get();
+    const [place, ...rest] = future;
+    if (place) this.store.set({ ...place, past: [...past, this.place()], future: rest, slot: place.stops.length - 1 });
+  };
+
+  private go(change: Partial<Place>): void {
+    const { past, slot } = this.store.get();
+    const stops = change.stops ?? this.store.get().stops;
+    this.store.set({
+      past: [...past.slice(-99), this.place()],
+      future: [],
+      ...change,
+      slot: Math.min(slot, stops.length - 1),
+    });
+  }
+
+  private place(): Place {
+    const { space, pace, stops } = this.store.get();
+    return { space, pace, stops };
+  }
+}
+
+/** A pair that shows something, where the library has it. */
+function defaultStops({ materials }: LibrarySummary): string[] {
+  const names = materials.map(({ name }) => name);
+  const wished = ["cherry-235", "gold-metallic-paint"].filter((name) => names.includes(name));
+  return wished.length === 2 ? wished : [names[0]!, names.at(-1)!];
+}

@@ -1,0 +1,66 @@
+// Small pictures of all materials, mixed on the processor: a recipe's picture before any table has come.
+
+import type { Block } from "./api/client";
+import { HALF } from "./brdf/half";
+import { toByte } from "./colour";
+import type { Ingredient } from "./recipe";
+
+export class Thumbnails {
+  readonly size: number;
+  private readonly byName: ReadonlyMap<string, Float32Array>;
+
+  constructor(names: readonly string[], block: Block) {
+    const [, size = 0] = block.shape;
+    this.size = size;
+    const n = 4 * size * size;
+    this.byName = new Map(
+      names.map((name, i) => [name, Float32Array.from(block.halfs.subarray(i * n, (i + 1) * n), (bits, j) => HALF[bits]! * (j % 4 === 3 ? 1 : block.scale[j % 4]!))]),
+    );
+  }
+
+  /** The picture of a recipe, ready for a canvas. */
+  picture(recipe: readonly Ingredient[]): ImageData {
+    const n = 4 * this.size * this.size;
+    const sum = new Float32Array(n);
+    for (const { name, weight } of recipe) {
+      const part = this.byName.get(name);
+      if (part === undefined) continue;
+      const [r, g, b] = weight;
+      for (let i = 0; i < n; i += 4) {
+        sum[i]! += r * part[i]!;
+        sum[i + 1]! += g * part[i + 1]!;
+        sum[i + 2]! += b * part[i + 2]!;
+        sum[i + 3] = part[i + 3]!;
+      }
+    }
+    const bytes = new Uint8ClampedArray(n);
+    for (let i = 0; i < n; i += 4) {
+      bytes[i] = toByte(sum[i]!);
+      bytes[i + 1] = toByte(sum[i + 1]!);
+      bytes[i + 2] = toByte(sum[i + 2]!);
+      bytes[i + 3] = Math.round(255 * this.edge(i / 4) * (sum[i + 3]! > 0 ? 1 : 0));
+    }
+    return new ImageData(bytes, this.size, this.size);
+  }
+
+  of(name: string): ImageData {
+    return this.picture([{ name, weight: [1, 1, 1] }]);
+  }
+
+  /** A canvas with the picture of one material. */
+  canvas(name: string): HTMLCanvasElement {
+    const canvas = document.createElement("canvas");
+    canvas.className = "thumbnail";
+    canvas.width = canvas.height = this.size;
+    canvas.getContext("2d")!.putImageData(this.of(name), 0, 0);
+    return canvas;
+  }
+
+  /** Coverage of a pixel by the disc that touches all four sides. */
+  private edge(pixel: number): number {
+    const r = this.size / 2;
+    const x = (pixel % this.size) + 0.5 - r;
+    const y = Math.floor(pixel / this.size) + 0.5 - r;
+    return Math.min(Math.max(r - Math.hypot(x, y), 0), 1);
+  }
+}
