@@ -25,6 +25,7 @@ from itertools import product
 from typing import NamedTuple
 
 import numpy as np
+from jaxtyping import Float64, Int
 
 from .._types import Angle, Directions, Indices, Mask
 from .angles import HalfDiff, cosines, from_half_diff, to_half_diff
@@ -54,20 +55,22 @@ class Axis:
         """Angles in radians of positions in [0, size]."""
         return self.stop * (position / self.size) ** self.power
 
-    def centres(self) -> Angle:
+    def centres(self) -> Float64[np.ndarray, " size"]:
         """Angles of the cell centres, shape (size,)."""
-        return self.to_angle(np.arange(self.size) + 0.5)
+        return np.asarray(self.to_angle(np.arange(self.size) + 0.5))
 
-    def edges(self) -> Angle:
+    def edges(self) -> Float64[np.ndarray, " n_edges"]:
         """Angles of the cells' ends, shape (size + 1,)."""
-        return self.to_angle(np.arange(self.size + 1.0))
+        return np.asarray(self.to_angle(np.arange(self.size + 1.0)))
 
 
 class Corners(NamedTuple):
     """The cells that a lookup blends."""
 
-    cells: Indices  # (n_corners, ...), flat indices into the grid
-    weights: Angle  # (n_corners, ...), non-negative, summing to 1 over the first axis
+    cells: Int[np.ndarray, "..."]  # (n_corners, ...), flat indices into the grid
+    weights: Float64[
+        np.ndarray, "..."
+    ]  # (n_corners, ...), non-negative, summing to 1 over the first axis
 
 
 @dataclass(frozen=True)
@@ -119,7 +122,7 @@ class Grid:
         """True where both directions at the cell's centre are above the horizon, shape `shape`; read-only."""
         return _mask(self)
 
-    def solid_angles(self) -> Angle:
+    def solid_angles(self) -> Float64[np.ndarray, "..."]:
         """Measure of each cell in an integral over pairs of directions, in sr^2, shape `shape`.
 
             dwi dwo = 4 cos(theta_d) dwh dwd,   dw = sin(theta) dtheta dphi
@@ -175,7 +178,7 @@ _WHOLE = {"theta_h": 1.0, "phi_h": 2 * np.pi, "theta_d": 2.0, "phi_d": 2 * np.pi
 """Integrals of sin(theta_h), 1, 4 cos(theta_d) sin(theta_d), 1 over all of each angle."""
 
 
-def _measures(axis: Axis) -> Angle:
+def _measures(axis: Axis) -> Float64[np.ndarray, " n"]:
     edges = axis.edges()
     match axis.angle:
         case "theta_h":

@@ -20,12 +20,15 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from jaxtyping import Float, Float32
+from jaxtyping import Float, Float32, Float64, Int
 from scipy.sparse import csr_array
 
-from .._types import Angle, Directions, Indices, Mask
+from .._types import Directions, Mask
 from ..brdf import hemisphere
 from ..halfdiff import Grid
+
+Angles = Float64[np.ndarray, "..."]
+Indices = Int[np.ndarray, "..."]
 
 N_SKY_NODES = 32
 """Angles theta_o at which the sky's moments are tabulated, linear between them."""
@@ -152,7 +155,7 @@ class _Frame(NamedTuple):
     tangent: Directions
     bitangent: Directions
     normal: Directions
-    theta_o: Angle
+    theta_o: Angles
 
     def to_local(self, directions: list[tuple[float, float, float]]) -> Directions:
         """Unit vectors along ``directions`` in each frame, shape (n_directions, n_points, 3)."""
@@ -181,7 +184,7 @@ def _points(scene: BasisScene) -> tuple[_Frame, Indices]:
     return _frame(np.arcsin(sin[on_sphere]), np.arctan2(y, x)[on_sphere]), pixel[on_sphere]
 
 
-def _frame(theta: Angle, phi: Angle) -> _Frame:
+def _frame(theta: Angles, phi: Angles) -> _Frame:
     sin, cos, zero = np.sin(theta), np.cos(theta), np.zeros_like(theta)
     across, up = np.cos(phi), np.sin(phi)
     return _Frame(
@@ -200,7 +203,7 @@ def _light_queries(lights: tuple[Light, ...], frame: _Frame) -> _Queries:
     return _Queries(wi, _viewer(frame.theta_o[point]), point, irradiance[light] * wi[:, 2])
 
 
-def _sky_queries() -> tuple[Angle, _Queries]:
+def _sky_queries() -> tuple[Angles, _Queries]:
     """The angles theta_o of the nodes, and the quadrature of their moments."""
     theta_o = (np.arange(N_SKY_NODES) + 0.5) * np.pi / 2 / N_SKY_NODES
     h, dh = hemisphere(*N_SKY_HALF_VECTORS)
@@ -213,7 +216,7 @@ def _sky_queries() -> tuple[Angle, _Queries]:
     return theta_o, _Queries(wi[lit], np.broadcast_to(wo, wi.shape)[lit], owner, measure)
 
 
-def _viewer(theta_o: Angle) -> Directions:
+def _viewer(theta_o: Angles) -> Directions:
     return np.stack([np.sin(theta_o), np.zeros_like(theta_o), np.cos(theta_o)], axis=-1)
 
 
@@ -248,7 +251,7 @@ def _moment_sums(moment: _Queries, n_queries: int) -> csr_array:
     return _sparse(weight.ravel(), row.ravel(), column.ravel(), (4 * N_SKY_NODES, n_queries))
 
 
-def _sky_sums(sky: Sky, frame: _Frame, rows: Indices, theta_o: Angle) -> csr_array:
+def _sky_sums(sky: Sky, frame: _Frame, rows: Indices, theta_o: Angles) -> csr_array:
     mean, slope = (sky.zenith + sky.nadir) / 2, (sky.zenith - sky.nadir) / 2
     (up,) = frame.to_local([sky.up])
     radiance = np.column_stack([np.full(len(up), mean), slope * up])
