@@ -13,8 +13,10 @@ from jaxtyping import install_import_hook
 SOURCE = Path(__file__).parents[1] / "src"
 # Compiled code has types of its own; a class of the renderer is made by it.
 UNCHECKED = ("halfway.space.kernel", "halfway.render.bsdf")
-MODULES = [".".join(path.relative_to(SOURCE).with_suffix("").parts) for path in SOURCE.rglob("*.py")]
-install_import_hook([name for name in MODULES if name not in UNCHECKED], "beartype.beartype")
+MODULES = [
+    ".".join(path.relative_to(SOURCE).with_suffix("").parts) for path in SOURCE.rglob("*.py")
+]
+install_import_hook([name for name in MODULES if name not in UNCHECKED], "typechecker.check")
 
 from halfway.brdf import TabularBrdf  # noqa: E402 (after the hook)
 from halfway.halfdiff import Grid  # noqa: E402

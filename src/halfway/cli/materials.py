@@ -13,6 +13,10 @@ from ..space import Mixer, Recipe
 from .arguments import ArgumentError, is_library, read_json, to_recipe
 
 
+FILES = (".binary", ".bsdf", ".h5")
+"""Suffixes that nobody means a material's name by."""
+
+
 class Material(NamedTuple):
     """Something that can be rendered."""
 
@@ -46,6 +50,8 @@ def _materials(word: str) -> list[Material]:
         return [_mixed([word])]
     if path.exists():
         return [Material(path.stem, partial(_read, path))]
+    if path.suffix in FILES:
+        raise ArgumentError(f"there is no file {path}: see where you are, or name a material.")
     library, _, name = word.rpartition(":")
     return [_mixed([library, name] if is_library(library) else [word])]
 

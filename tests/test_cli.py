@@ -1,0 +1,227 @@
+"""The command line as a person meets it: real processes for start-up, in-process runs for the rest."""
+
+import json
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from conftest import random_tables
+from numpy.testing import assert_allclose
+
+from halfway.cli import arguments, console
+from halfway.cli import main as halfway
+from halfway.errors import HalfwayError
+from halfway.formats import read_merl, write_merl
+from halfway.halfdiff import Grid
+
+GRID = Grid.merl(4, 3, 5)
+
+
+@pytest.fixture
+def run(capsys, monkeypatch, tmp_path):
+    """Run a command in an empty folder; gives (exit code, stdout, stderr)."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(console, "cache_folder", lambda: tmp_path / "cache")
+    for module in ("route", "report"):
+        monkeypatch.setattr(f"halfway.cli.{module}.cache_folder", lambda: tmp_path / "cache")
+
+    def run(*words):
+        monkeypatch.setattr(sys, "argv", ["halfway", *words])
+        try:
+            halfway()
+            code = 0
+        except SystemExit as stop:
+            code = stop.code or 0
+        return code, *capsys.readouterr()
+
+    return run
+
+
+@pytest.fixture
+def lib(run, tmp_path):
+    source = tmp_path / "measured"
+    for name, table in random_tables(7, GRID).items():
+        write_merl(source / f"{name}.binary", table)
+    (source / "README").write_text("Measured on a Sunday.")
+    code, _, talk = run("library", "build", "measured", "-o", "tiny.brdflib", "--licence", "CC0")
+    assert code == 0, talk
+    return "tiny.brdflib"
+
+
+def test_help_is_quick_and_loads_nothing_heavy():
+    script = (
+        "import sys; from halfway.cli import app; "
+        "heavy = {'numpy', 'scipy', 'numba', 'mitsuba', 'matplotlib', 'h5py', 'rich.progress'} & set(sys.modules); "
+        "sys.exit(f'loaded {heavy}' if heavy else 0)"
+    )
+    subprocess.run([sys.executable, "-c", script], check=True)
+
+
+def test_importing_the_package_loads_nothing_heavy():
+    script = "import sys, halfway; sys.exit('numpy' in sys.modules or 'mitsuba' in sys.modules)"
+    subprocess.run([sys.executable, "-c", script], check=True)
+
+
+@pytest.mark.parametrize(
+    "command", ["demo", "report", "route", "mix", "render", "library build", "library info"]
+)
+def test_every_command_explains_itself(run, command):
+    code, out, _ = run(*command.split(), "--help")
+    assert code == 0
+    assert "Usage: halfway" in out
+
+
+def test_build_says_what_it_skipped_and_what_is_next(run, tmp_path, lib):
+    code, _, talk = run("library", "build", "measured", "-o", "again.brdflib")
+    assert code == 0
+    assert "skipped measured/README: is text" in talk
+    assert "again.brdflib: 7 materials on 4 x 3 x 5, 1 skipped. Next: halfway report" in talk
+
+
+def test_info_is_for_people_and_programs(run, lib):
+    assert "material-3" in run("library", "info", lib)[1]
+    facts = json.loads(run("library", "info", lib, "--json")[1])
+    assert (facts["grid"], facts["licence"], len(facts["materials"])) == ([4, 3, 5], "CC0", 7)
+
+
+def test_route_writes_recipes_and_tables(run, lib, tmp_path):
+    words = (
+        "route",
+        lib,
+        "material-0",
+        "material-4",
+        "-n",
+        "5",
+        "--space",
+        "paper",
+        "-o",
+        "r",
+        "--format",
+        "merl",
+    )
+    code, _, talk = run(*words)
+    assert (code, "5 tables written" in talk) == (0, True)
+    for file, name in (("000", "material-0"), ("004", "material-4")):
+        assert (tmp_path / "r" / f"{file}.binary").read_bytes() == (
+            tmp_path / "measured" / f"{name}.binary"
+        ).read_bytes()
+    assert "0 tables written, 5 kept" in run(*words)[2]
+
+
+def test_route_prints_json_alone_on_stdout(run, lib, tmp_path):
+    code, out, _ = run(
+        "route",
+        lib,
+        "material-0",
+        "material-4",
+        "material-2",
+        "--t",
+        "0,0.5,1",
+        "--space",
+        "linear",
+        "--json",
+    )
+    document = json.loads(out)
+    assert code == 0
+    assert [r["weights"] for r in document["recipes"]] == [
+        {"material-0": 1.0},
+        {"material-4": 1.0},
+        {"material-2": 1.0},
+    ]
+    assert sorted(p.name for p in tmp_path.iterdir() if p.name != "cache") == [
+        "measured",
+        "tiny.brdflib",
+    ]
+
+
+def test_mix_by_weights_by_recipe_file_and_by_place_on_a_route(run, lib, tmp_path):
+    assert run("mix", lib, "material-0=0.5, material-1=0.5", "-o", "a.binary")[0] == 0
+    (tmp_path / "recipe.json").write_text(
+        json.dumps({"weights": {"material-0": 0.5, "material-1": 0.5}})
+    )
+    assert run("mix", lib, "recipe.json", "-o", "b.binary")[0] == 0
+    run("route", lib, "material-0", "material-1", "-n", "3", "--space", "linear", "-o", "r")
+    assert run("mix", lib, "r/recipes.json:1", "-o", "c.binary")[0] == 0
+    a, b, c = (read_merl(tmp_path / f"{name}.binary").values for name in "abc")
+    assert_allclose(b, a, rtol=1e-6)
+    assert_allclose(c, a, rtol=1e-6)
+
+
+def test_report_prints_table_1_and_writes_figures(run, lib, tmp_path):
+    code, out, _ = run("report", lib, "-o", "report")
+    assert code == 0
+    assert "mean relative error" in out
+    names = {p.name for p in (tmp_path / "report").iterdir()}
+    assert names == {
+        "report.json",
+        "eigenvalues.png",
+        "eigenvalues.svg",
+        "triangulation.png",
+        "triangulation.svg",
+    }
+    document = json.loads((tmp_path / "report" / "report.json").read_text())
+    assert [row["n_components"] for row in document["table_1"]] == [3, 5]
+    assert set(document["eigenvalues"]) == {"r", "g", "b"}
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (
+            ["route", "builtin:merl-abc", "teflon", "gold-pain"],
+            "'gold-pain' is not one of the 100 materials",
+        ),
+        (["route", "nowhere.brdflib", "a", "b"], "there is no library 'nowhere.brdflib'"),
+        (["route", "teflon"], "a route with 1 stop goes nowhere"),
+        (["route", "teflon", "chrome", "-n", "1"], "expected -n 2 or more"),
+        (["route", "teflon", "chrome", "--t", "0,much"], "--t 'much' is no number and no range"),
+        (
+            ["route", "teflon", "chrome", "--t", "0,2", "--space", "linear"],
+            "t = 2 is off the route",
+        ),
+        (["mix", "teflon=0.5", "-o", "x.binary"], "sum to 0.5: they must sum to 1"),
+        (["mix", "teflon=1", "-o", "x.tiff"], "has the suffix '.tiff', which names no format"),
+        (["mix", "absent.json", "-o", "x.binary"], "absent.json: No such file or directory"),
+        (["library", "build", "absent", "-o", "x.brdflib"], "absent does not exist"),
+        (["render", "absent.binary", "-o", "x.png"], "there is no file absent.binary"),
+    ],
+)
+def test_a_mistake_is_one_line_and_exit_1(run, words, message):
+    code, out, talk = run(*words)
+    assert (code, out) == (1, "")
+    (line,) = talk.strip().splitlines()
+    assert message in line
+
+
+def test_an_unknown_option_is_exit_2(run):
+    assert run("route", "--sideways")[0] == 2
+
+
+def test_debug_shows_the_traceback(run):
+    with pytest.raises(HalfwayError):
+        run("library", "info", "nowhere", "--debug")
+
+
+def test_an_unwritable_folder_is_one_line(run, lib, tmp_path):
+    (tmp_path / "taken").write_text("")
+    code, _, talk = run("route", lib, "material-0", "material-1", "-o", "taken/r")
+    assert (code, "part of its path is a file, not a folder" in talk) == (1, True)
+
+
+@pytest.mark.parametrize(
+    ("text", "ts"),
+    [
+        ("0,0.25,1", [0, 0.25, 1]),
+        ("0:1:0.25", [0, 0.25, 0.5, 0.75, 1]),
+        ("0,0.5:1:0.25", [0, 0.5, 0.75, 1]),
+    ],
+)
+def test_lists_of_t(text, ts):
+    assert arguments.parse_t(text) == ts
+
+
+def test_the_papers_fine_list_of_t():
+    ts = arguments.parse_t("0.0001:1:0.0001")
+    assert (len(ts), ts[0], ts[-1]) == (10_000, 0.0001, 1)
+    np.testing.assert_array_equal(ts, np.arange(1, 10_001) / 10_000)

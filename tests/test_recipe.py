@@ -1,0 +1,73 @@
+"""Recipes: what a person or a program may write, and what is refused."""
+
+import json
+
+import numpy as np
+import pytest
+from hypothesis import given
+from numpy.testing import assert_allclose
+from strategies import convex_weights
+
+from halfway import Recipe
+from halfway.errors import RecipeError
+
+NAMES = tuple("abcdef")
+
+
+def test_from_text():
+    recipe = Recipe.from_text("lib", " gold-paint = .7, teflon=0.3 ")
+    assert recipe.names == ("gold-paint", "teflon")
+    assert_allclose(recipe.weights, [[0.7, 0.3]] * 3)
+
+
+def test_per_channel():
+    weights = {"r": {"a": 1}, "g": {"a": 0.5, "b": 0.5}, "b": {"b": 1}}
+    recipe = Recipe.of("lib", weights)
+    assert_allclose(recipe.weights, [[1, 0], [0.5, 0.5], [0, 1]])
+    assert recipe.to_json() == {
+        "library": "lib",
+        "weights": {c: dict(w) for c, w in weights.items()},
+    }
+
+
+@given(convex_weights(6), convex_weights(6), convex_weights(6))
+def test_json_round_trip(r, g, b):
+    recipe = Recipe.from_dense("lib", NAMES, np.stack([r, g, b]))
+    back = Recipe.from_json(json.loads(json.dumps(recipe.to_json())))
+    assert back.library == "lib"
+    for name, column in zip(back.names, back.weights.T, strict=True):
+        assert_allclose(column, recipe.weights[:, recipe.names.index(name)], rtol=1e-12)
+
+
+def test_materials_without_weight_are_left_out():
+    dense = np.array([[0, 1.0, 0]] * 3)
+    assert Recipe.from_dense("lib", ("a", "b", "c"), dense).names == ("b",)
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("gold=0.7, teflon=0.2", r"channel r sum to 0.9: they must sum to 1. Divide each by 0.9."),
+        (
+            "gold=1.5, teflon=-0.5",
+            r"the weight of teflon in channel r is -0.5: a recipe takes numbers that are not",
+        ),
+        ("gold=nan", "the weight of gold in channel r is nan"),
+        ("gold=much", "the weight of gold, 'much', is no number"),
+        ("gold", "'gold' has no weight: expected NAME=WEIGHT"),
+        ("gold=0.5, gold=0.5", "gold is given twice"),
+        ("", "sum to 0"),
+    ],
+)
+def test_what_is_no_recipe_says_why(text, message):
+    with pytest.raises(RecipeError, match=message):
+        Recipe.from_text("lib", text)
+
+
+@pytest.mark.parametrize(
+    "document",
+    [None, [], "x", {}, {"weights": 3}, {"weights": {"a": "1"}}, {"weights": {"a": True}}],
+)
+def test_json_of_something_else_is_refused(document):
+    with pytest.raises(RecipeError):
+        Recipe.from_json(document)
