@@ -1,11 +1,7 @@
-"""Spaces as something to look at: three coordinates a material.
+"""Spaces as something to look at: up to three coordinates a material, and the edges between them.
 
-Scores are ruled by the highlight and span five decades, so a plain plot is one heap with a few points far away. What is
-shown is compressed along each axis,
-
-    x' = asinh((x - centre) / spread)      centre: median; spread: median of |x - centre|
-
-Straight lines of the space are curves in this picture; the triangulation's edges are drawn straight.
+The page stretches each axis so that the materials spread evenly: scores are ruled by the highlight and span five
+decades, and a plain plot is one heap with a few points far away.
 """
 
 from typing import Literal, TypeAlias
@@ -14,7 +10,7 @@ import numpy as np
 
 from ..library import Pca
 from ..space import PaperSpace, Space
-from .schema import Channel, Embedding, ShownAxis, SpaceView
+from .schema import Channel, Embedding, SpaceView
 
 Edges: TypeAlias = list[tuple[int, int]]
 
@@ -43,15 +39,8 @@ def joint_scores(pca: Pca, n_components: int = 3) -> np.ndarray:
 
 def _embedding(channel: Channel | Literal["all"], points: np.ndarray, edges: Edges) -> Embedding:
     points = points[:, :3]
-    axes = [_axis(f"score {i + 1}", x) for i, x in enumerate(points.T)]
+    axes = [f"score {i + 1}" for i in range(points.shape[1])]
     return Embedding(channel=channel, axes=axes, points=points.tolist(), edges=edges)
-
-
-def _axis(name: str, x: np.ndarray) -> ShownAxis:
-    centre = float(np.median(x))
-    spread = float(np.median(np.abs(x - centre)))
-    # Where most materials coincide the median says nothing: then the extent does.
-    return ShownAxis(name=name, centre=centre, spread=spread or float(np.ptp(x)) or 1.0)
 
 
 def _edges(simplices: np.ndarray) -> Edges:

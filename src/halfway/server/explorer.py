@@ -30,6 +30,7 @@ from .schema import (
     RouteView,
     SpaceSummary,
     SpaceView,
+    WeightTable,
 )
 
 N_TABLES = 16
@@ -97,21 +98,7 @@ class Explorer:
             )
         if pace not in PACES:
             raise SpaceError(f"there is no pace {pace!r}: expected {' or '.join(PACES)}.")
-        route = Route.through(self._space(space), stops, pace=pace)
-        used = np.flatnonzero(route.weights.any(axis=(0, 1)))
-        r, g, b = route.weights[:, :, used].clip(0, 1).tolist()
-        return RouteView.model_validate(
-            {
-                "library": route.library,
-                "space": route.space,
-                "pace": route.pace,
-                "stops": list(stops),
-                "stop_t": [i / (len(stops) - 1) for i in range(len(stops))],
-                "knots": route.knots.tolist(),
-                "names": [route.names[i] for i in used],
-                "weights": {"r": r, "g": g, "b": b},
-            }
-        )
+        return to_view(Route.through(self._space(space), stops, pace=pace))
 
     def table(self, name: str) -> Block:
         """The table of one material."""
@@ -154,3 +141,20 @@ class Explorer:
             if name not in self._spaces:
                 self._spaces[name] = make_space(name, self.library, cache=self._cache)
             return self._spaces[name]
+
+
+def to_view(route: Route) -> RouteView:
+    """The route as its knots, with the materials that carry weight anywhere on it."""
+    used = np.flatnonzero(route.weights.any(axis=(0, 1)))
+    r, g, b = route.weights[:, :, used].clip(0, 1).tolist()
+    n_legs = len(route.stops) - 1
+    return RouteView(
+        library=route.library,
+        space=route.space,
+        pace=route.pace,
+        stops=list(route.stops),
+        stop_t=[i / n_legs for i in range(n_legs + 1)],
+        knots=route.knots.tolist(),
+        names=[route.names[i] for i in used],
+        weights=WeightTable(r=r, g=g, b=b),
+    )

@@ -36,7 +36,7 @@ def serve(
     """
     page = Page.load()
     app = create_app(library, page=page, cache=cache, track=track)
-    with _listen(port) as listener:
+    with listen(port) as listener:
         address = f"http://127.0.0.1:{listener.getsockname()[1]}/"
         print(f"{library.name}: {address} (Ctrl-C stops)", file=sys.stderr, flush=True)
         if open_browser:
@@ -48,10 +48,13 @@ def serve(
         uvicorn.Server(config).run(sockets=[listener])
 
 
-def _listen(port: int) -> socket.socket:
+def listen(port: int) -> socket.socket:
+    """A socket that listens on the loopback address: at ``port``, or at a free one when that is taken."""
     for candidate in dict.fromkeys((port, 0)):
         listener = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
-        listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        # A port in use by another program is not shared, on any system.
+        if sys.platform != "win32":
+            listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         try:
             listener.bind(("127.0.0.1", candidate))
         except OSError:

@@ -82,19 +82,12 @@ class LibrarySummary(Model):
     """Formats of ``/api/export/{format}``."""
 
 
-class ShownAxis(Model):
-    """A coordinate x and how it is shown: as asinh((x - centre) / spread)."""
-
-    name: str
-    centre: float
-    spread: float
-
-
 class Embedding(Model):
     """The materials as points in up to three dimensions, to be looked at."""
 
     channel: Channel | Literal["all"]
-    axes: list[ShownAxis]
+    axes: list[str]
+    """What the coordinates are."""
     points: list[list[float]]
     """In the library's order; the point of a mix is the mix of the points."""
     edges: list[tuple[int, int]]

@@ -50,17 +50,10 @@ export interface LibrarySummary {
   readonly exports: readonly string[];
 }
 
-/** A coordinate x and how it is shown: as asinh((x - centre) / spread). */
-export interface ShownAxis {
-  readonly name: string;
-  readonly centre: number;
-  readonly spread: number;
-}
-
 /** The materials as points in up to three dimensions, to be looked at. */
 export interface Embedding {
   readonly channel: "r" | "g" | "b" | "all";
-  readonly axes: readonly ShownAxis[];
+  readonly axes: readonly string[];
   readonly points: readonly (readonly number[])[];
   readonly edges: readonly (readonly [number, number])[];
 }

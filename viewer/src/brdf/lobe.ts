@@ -2,43 +2,37 @@
 //
 //     D_i = max(0, mean_i - floor) cos(theta_h)        floor: the smallest mean between 40 and 70 degrees
 //
-// The floor would leak into the tails, where the cosine-weighted samples do better.
+// The floor would leak into the tails, where the samples of the light do better.
 
 import { toAngle } from "./grid";
 import { sample, type Table } from "./table";
 
 export interface Lobe {
-  /** P(theta_h in the first i cells), n + 1 numbers from 0 to 1. */
-  readonly cdf: Float32Array;
-  /** Per solid angle of the half vector, n numbers, 1/sr. */
-  readonly pdf: Float32Array;
+  /** Chance of each cell of theta_h; they sum to 1. */
+  readonly mass: Float64Array;
+  /** Per solid angle of the half vector, 1/sr. */
+  readonly density: Float64Array;
 }
 
 const STEPS_D = 6;
 const STEPS_P = 12;
+/** What every cell counts at least, as a share of its own mean. */
+const FLOOR = 1e-4;
 
 export function lobe(table: Table): Lobe {
   const axis = table.grid[0];
-  const n = axis.size;
-  const means = Array.from({ length: n }, (_, i) => mean(table, i));
-  const angles = Array.from({ length: n + 1 }, (_, i) => toAngle(axis, i));
-  const middle = means.filter((_, i) => (angles[i] as number) > 0.7 && (angles[i] as number) < 1.2);
-  const floor = middle.length ? Math.min(...middle) : 0;
-  const density = means.map((value, i) => {
-    const centre = toAngle(axis, i + 0.5);
-    return (Math.max(0, value - floor) + 1e-4 * (value + 1e-6)) * Math.cos(centre);
+  const means = Array.from({ length: axis.size }, (_, i) => mean(table, i));
+  const middle = means.filter((_, i) => {
+    const angle = toAngle(axis, i + 0.5);
+    return angle > 0.7 && angle < 1.2;
   });
-  const mass = density.map((value, i) => value * solidAngle(angles[i] as number, angles[i + 1] as number));
+  const floor = middle.length ? Math.min(...middle) : 0;
+  const shape = means.map(
+    (value, i) => (Math.max(0, value - floor) + FLOOR * (value + 1e-6)) * Math.cos(toAngle(axis, i + 0.5)),
+  );
+  const mass = Float64Array.from(shape, (value, i) => value * solidAngle(toAngle(axis, i), toAngle(axis, i + 1)));
   const total = mass.reduce((a, b) => a + b, 0);
-  const cdf = new Float32Array(n + 1);
-  const pdf = new Float32Array(n);
-  let sum = 0;
-  for (let i = 0; i < n; i++) {
-    sum += (mass[i] as number) / total;
-    cdf[i + 1] = i === n - 1 ? 1 : sum;
-    pdf[i] = (density[i] as number) / total;
-  }
-  return { cdf, pdf };
+  return { mass: mass.map((m) => m / total), density: Float64Array.from(shape, (value) => value / total) };
 }
 
 function solidAngle(from: number, to: number): number {

@@ -10,9 +10,13 @@ import { nearestFirst } from "../wanted";
 
 export function materialView(context: Context): HTMLElement {
   const { store } = context;
-  const canvas = el("canvas", { id: "material", tabindex: 0, role: "img", "aria-label": "The material on an object; drag to turn it" });
+  const canvas = el("canvas.view", { id: "material", tabindex: 0, role: "img", "aria-label": "The material on an object; drag to turn it" });
   const note = el("span.note", { "aria-live": "polite" });
   const progress = el("i");
+  const home = iconButton("home", "Turn back to the front", () => store.set({ orbit: HOME }));
+  store.watch(({ orbit }) => orbit, (orbit) => {
+    home.hidden = orbit === HOME;
+  });
   const shapes = segments<Shape>("Object", [["sphere", "Sphere"], ["teapot", "Teapot"]], (shape) => store.set({ shape, orbit: HOME }));
   const lights = segments<Light>("Light", [["studio", "Studio"], ["points", "Three lights"]], (light) => store.set({ light }));
   store.watch(({ shape }) => shape, shapes.mark);
@@ -22,8 +26,8 @@ export function materialView(context: Context): HTMLElement {
     { "aria-label": "Material" },
     {},
     canvas,
-    el("div.overlay.top", {}, {}, el("h2", {}, {}, "Material"), note),
-    el("div.overlay.bottom", {}, {}, shapes.element, lights.element, exposure(context), iconButton("home", "Turn back to the front", () => store.set({ orbit: HOME }))),
+    el("div.overlay.top", {}, {}, el("h2", {}, {}, "Material"), el("div.group", {}, {}, note, home)),
+    el("div.overlay.bottom", {}, {}, shapes.element, lights.element, exposure(context)),
     el("div.bar", {}, {}, progress),
   );
   try {
@@ -39,8 +43,30 @@ function paint(context: Context, panel: HTMLElement, canvas: HTMLCanvasElement, 
   const { store, tables } = context;
   const { library } = store.get();
   const painter = new Painter(canvas, tables, library.lights, toEnvironment(context.environment));
+  let quality = 1;
+  const measured = new Set<Light>();
+  const fit = () => {
+    const ratio = Math.min(window.devicePixelRatio || 1, 2);
+    const [width, height] = [panel.clientWidth * ratio, panel.clientHeight * ratio];
+    const scale = quality * Math.min(1, Math.sqrt(MOST_PIXELS / (width * height)));
+    painter.resize(Math.round(width * scale), Math.round(height * scale));
+    const { shape, orbit, light } = store.get();
+    painter.look(shape, orbit, light);
+  };
+  /** A slow card, or none, draws fewer pixels. */
+  const measure = (name: string, light: Light) => {
+    const milliseconds = measured.has(light) ? null : painter.measure(name);
+    if (milliseconds === null) return;
+    measured.add(light);
+    const smaller = Math.max(0.4 / quality, Math.min(1, Math.sqrt(PATIENCE / milliseconds)));
+    loop.passMilliseconds = milliseconds * smaller ** 2;
+    if (smaller === 1) return;
+    quality *= smaller;
+    fit();
+  };
   const loop = new Loop(() => {
-    const { recipe, exposure, route, t } = store.get();
+    const { recipe, exposure, route, t, light } = store.get();
+    if (recipe[0]) measure(recipe[0].name, light);
     const names = recipe.map(({ name }) => name);
     const missing = names.filter((name) => tables.get(name) === undefined);
     // First all of the present recipe, then what the slider meets next, at a few samples: crossing into it shows at once.
@@ -58,11 +84,8 @@ function paint(context: Context, panel: HTMLElement, canvas: HTMLCanvasElement, 
     panel.dataset.ready = String(samples > 0 && missing.length === 0);
     return working || ahead;
   });
-  onResize(panel, (width, height) => {
-    const scale = Math.min(1, Math.sqrt(1.4e6 / (width * height)));
-    painter.resize(Math.round(width * scale), Math.round(height * scale));
-    const { shape, orbit, light } = store.get();
-    painter.look(shape, orbit, light);
+  onResize(panel, () => {
+    fit();
     loop.run();
   });
   store.watch(({ shape, orbit, light }) => [shape, orbit, light] as const, ([shape, orbit, light]) => {
@@ -77,35 +100,44 @@ function paint(context: Context, panel: HTMLElement, canvas: HTMLCanvasElement, 
   tables.onChange = (problem) => {
     if (problem) store.set({ problem });
     document.dispatchEvent(new Event("tablechange"));
-    loop.run();
+    loop.goOn();
   };
   orbitOnDrag(context, canvas);
 }
 
-/** Runs a frame while there is something to do, with as many passes as keep it fluent. */
+const MOST_PIXELS = 1.4e6;
+/** Milliseconds that a pass over one material may take before the picture is made smaller. */
+const PATIENCE = 40;
+
+/** Runs frames while there is something to do. */
 class Loop {
-  budget = 2;
+  passMilliseconds = 10;
   private running = false;
-  private last = 0;
+  private touched = 0;
 
   constructor(private readonly frame: () => boolean) {}
 
+  /** Passes that a frame has time for: few while something moves, more while the picture only gets better. */
+  get budget(): number {
+    const milliseconds = performance.now() - this.touched < 250 ? 10 : 50;
+    return Math.min(64, Math.max(1, Math.round(milliseconds / this.passMilliseconds)));
+  }
+
+  /** Something moved. */
   run(): void {
+    this.touched = performance.now();
+    this.goOn();
+  }
+
+  goOn(): void {
     if (this.running) return;
     this.running = true;
-    this.last = 0;
     requestAnimationFrame(this.step);
   }
 
-  private readonly step = (now: number) => {
-    if (this.last > 0) {
-      const elapsed = now - this.last;
-      if (elapsed > 45) this.budget = Math.max(1, Math.floor(this.budget * 0.7));
-      else if (elapsed < 25) this.budget = Math.min(48, this.budget + 1);
-    }
-    this.last = now;
-    if (this.frame()) requestAnimationFrame(this.step);
-    else this.running = false;
+  private readonly step = () => {
+    this.running = false;
+    if (this.frame()) this.goOn();
   };
 }
 
@@ -150,7 +182,7 @@ function exposure({ store }: Context): HTMLElement {
 
 /** Without WebGL2: the small pictures, mixed on the processor. */
 function stillPictures({ store, thumbnails }: Context, panel: HTMLElement, reason: string): void {
-  const canvas = el("canvas.still", { width: thumbnails.size, height: thumbnails.size });
+  const canvas = el("canvas.view.still", { width: thumbnails.size, height: thumbnails.size });
   panel.prepend(canvas, el("p.reason", { role: "status" }, {}, `A small picture stands in for the live one. ${reason}`));
   panel.querySelector(".overlay.bottom")?.remove();
   store.watch(({ recipe }) => recipe, (recipe) => {

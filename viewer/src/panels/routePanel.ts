@@ -99,8 +99,8 @@ function strip({ store, actions, thumbnails }: Context): HTMLElement {
   const element = el("div.strip", {}, {}, canvas, input, head);
   store.watch(({ t }) => t, (t) => {
     input.value = String(t);
-    // The track of a range input ends half a thumb before its sides.
-    head.style.left = `calc(8px + ${t} * (100% - 16px))`;
+    // The middle of a range input's thumb stays half a thumb away from the ends.
+    head.style.left = `calc(var(--side) / 2 + ${t} * (100% - var(--side)))`;
   });
   const context = canvas.getContext("2d")!;
   const cell = document.createElement("canvas");
@@ -112,17 +112,15 @@ function strip({ store, actions, thumbnails }: Context): HTMLElement {
     context.clearRect(0, 0, width, height);
     if (route === null || width === 0) return;
     const ratio = width / canvas.clientWidth;
-    const inset = 8 * ratio;
-    const foot = 9 * ratio;
-    const side = height - foot;
-    const count = Math.max(2, Math.floor((width - 2 * inset) / (side * 1.06)));
+    const side = Number.parseFloat(getComputedStyle(element).getPropertyValue("--side")) * ratio;
+    const inset = side / 2;
+    const count = Math.max(2, Math.floor((width - side) / (side * 1.07)) + 1);
     context.imageSmoothingQuality = "high";
     for (let i = 0; i < count; i++) {
       const t = i / (count - 1);
       pen.putImageData(thumbnails.picture(recipeAt(route, t)), 0, 0);
       const centre = inset + t * (width - 2 * inset);
-      const x = Math.min(Math.max(centre - side / 2, 0), width - side);
-      context.drawImage(cell, x, 0, side, side);
+      context.drawImage(cell, centre - side / 2, 0, side, side);
     }
     const line = (t: number, from: number, colour: string, thickness: number) => {
       context.fillStyle = colour;

@@ -13,7 +13,7 @@ export function spaceView(context: Context): HTMLElement {
   const { store, actions, thumbnails } = context;
   const names = store.get().library.materials.map(({ name }) => name);
   const indices = new Map(names.map((name, i) => [name, i]));
-  const canvas = el("canvas", { id: "space-view", tabindex: 0, role: "img", "aria-label": "The materials as points; the search reaches them all" });
+  const canvas = el("canvas.view", { id: "space-view", tabindex: 0, role: "img", "aria-label": "The materials as points; the search reaches them all" });
   const labels = el("div.labels", { "aria-hidden": "true" });
   const note = el("span.note");
   const channels = segments<string>("Channel", CHANNELS.map((channel) => [channel, channel.toUpperCase()] as const), (channel) => {
@@ -53,7 +53,7 @@ export function spaceView(context: Context): HTMLElement {
     const single = store.get().view!.embeddings.length === 1;
     channels.element.hidden = single;
     channels.mark(current.channel);
-    note.textContent = `${current.axes.map(({ name }) => name).join(", ")} (asinh)${single ? "" : `, ${{ r: "red", g: "green", b: "blue", all: "" }[current.channel]} channel`}`;
+    note.textContent = `${current.axes.join(", ")}, on rank scales`;
     cloud.embed(current);
     traceRoute();
     place();

@@ -1,6 +1,7 @@
-// From the coordinates of a space to where they are drawn: compressed along each axis, scaled into a cube.
+// From the coordinates of a space to where they are drawn: each axis stretched so that the materials spread evenly.
 //
-// Scores span five decades: x is drawn at asinh((x - centre) / spread), with centre and spread from the server.
+// Scores are ruled by the highlight and span five decades; a plain plot is one heap and a few points far away. A coordinate
+// is drawn at its rank among the materials, linear between two of them: the order along each axis is kept, distances are not.
 
 import { Vector3 } from "three";
 
@@ -8,22 +9,19 @@ import type { Embedding } from "../api/schema";
 
 export class Display {
   readonly points: readonly Vector3[];
-  private readonly low: readonly number[];
-  private readonly high: readonly number[];
+  private readonly sorted: readonly (readonly number[])[];
 
   constructor(readonly embedding: Embedding) {
-    const compressed = embedding.points.map((point) => point.map((x, i) => this.compress(x, i)));
-    this.low = embedding.axes.map((_, i) => Math.min(...compressed.map((p) => p[i]!)));
-    this.high = embedding.axes.map((_, i) => Math.max(...compressed.map((p) => p[i]!)));
+    this.sorted = embedding.axes.map((_, axis) => {
+      const values = new Set(embedding.points.map((point) => point[axis]!));
+      return [...values].sort((a, b) => a - b);
+    });
     this.points = embedding.points.map((point) => this.place(point));
   }
 
   /** Where a point of the space is drawn, within [-1, 1]. */
   place(point: readonly number[]): Vector3 {
-    const [x = 0, y = 0, z = 0] = point.map((value, i) => {
-      const [low, high] = [this.low[i]!, this.high[i]!];
-      return high > low ? (2 * (this.compress(value, i) - low)) / (high - low) - 1 : 0;
-    });
+    const [x = 0, y = 0, z = 0] = point.map((value, axis) => this.rank(value, this.sorted[axis]!));
     return new Vector3(x, y, z);
   }
 
@@ -35,8 +33,16 @@ export class Display {
     return this.place(sum);
   }
 
-  private compress(x: number, axis: number): number {
-    const { centre, spread } = this.embedding.axes[axis]!;
-    return Math.asinh((x - centre) / spread);
+  private rank(value: number, sorted: readonly number[]): number {
+    if (sorted.length < 2) return 0;
+    let low = 0;
+    let high = sorted.length - 1;
+    while (high - low > 1) {
+      const middle = (low + high) >> 1;
+      if (sorted[middle]! <= value) low = middle;
+      else high = middle;
+    }
+    const share = (value - sorted[low]!) / (sorted[high]! - sorted[low]!);
+    return (2 * (low + Math.min(Math.max(share, 0), 1))) / (sorted.length - 1) - 1;
   }
 }

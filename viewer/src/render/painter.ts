@@ -28,7 +28,7 @@ import type { TableOnCard, Tables } from "./tables";
 export type Light = "studio" | "points";
 
 export const TARGET_SAMPLES: Record<Light, number> = { studio: 192, points: 16 };
-const SAMPLES_A_PASS: Record<Light, number> = { studio: 2, points: 1 };
+const SAMPLES_A_PASS: Record<Light, number> = { studio: 1, points: 1 };
 const LAYER_BYTES = 400e6;
 const MIN_LAYERS = 16;
 
@@ -89,7 +89,7 @@ export class Painter {
       {
         ...shared(),
         uEnv: { value: environment.picture },
-        uEnvCdf: { value: environment.cdf },
+        uEnvChances: { value: environment.chances },
         uLobe: { value: null },
         uFirst: { value: 0 },
         uSamples: { value: SAMPLES_A_PASS.studio },
@@ -153,6 +153,21 @@ export class Painter {
       this.addSamples(next.layer, next.table);
     }
     return true;
+  }
+
+  /** Milliseconds that one pass over a layer takes at the present size; the card is waited for. */
+  measure(name: string): number | null {
+    const next = this.neediest([name], Number.POSITIVE_INFINITY);
+    if (next === undefined) return null;
+    // The first pass compiles the shader and uploads the table.
+    const [, milliseconds] = [0, 1].map(() => {
+      const start = performance.now();
+      this.addSamples(next.layer, next.table);
+      const gl = this.renderer.getContext();
+      gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.FLOAT, new Float32Array(4));
+      return performance.now() - start;
+    });
+    return milliseconds ?? null;
   }
 
   /** Show a recipe; where a material has no picture yet, what was shown before stays. */

@@ -27,8 +27,8 @@ import shade from "./glsl/shade.frag.glsl?raw";
 import sphere from "./glsl/sphere.frag.glsl?raw";
 
 export const MAX_TERMS = 32;
-/** 2^32 / g^j with g^7 = g + 1, made odd. */
-export const STEPS = [0xe60e2b73, 0xcebd76d9, 0xb9c9aa3b, 0xa6f5777f, 0x9609c71f, 0x86d516e5] as const;
+/** 2^32 / g^j with g^5 = g + 1, made odd. */
+const STEPS = [0xdb4f0b91, 0xbbe05633, 0xa0f2ec75, 0x89e18285] as const;
 
 export type Uniforms = Record<string, IUniform>;
 

@@ -3,12 +3,9 @@
 import {
   ClampToEdgeWrapping,
   Data3DTexture,
-  DataTexture,
-  FloatType,
+  type DataTexture,
   HalfFloatType,
   LinearFilter,
-  NearestFilter,
-  RedFormat,
   RepeatWrapping,
   RGBAFormat,
   Vector3,
@@ -18,6 +15,7 @@ import * as api from "../api/client";
 import type { Axis } from "../api/schema";
 import { lobe } from "../brdf/lobe";
 import type { Table } from "../brdf/table";
+import { chances } from "./chances";
 
 export interface TableOnCard {
   readonly table: Table;
@@ -95,17 +93,6 @@ function toCard(table: Table): TableOnCard {
   texture.wrapS = RepeatWrapping;
   texture.wrapT = texture.wrapR = ClampToEdgeWrapping;
   texture.needsUpdate = true;
-  return { table, texture, scale: new Vector3(...table.scale), lobe: lobeTexture(table) };
-}
-
-function lobeTexture(table: Table): DataTexture {
-  const { cdf, pdf } = lobe(table);
-  const n = pdf.length;
-  const rows = new Float32Array(2 * n);
-  rows.set(cdf.subarray(1), 0);
-  rows.set(pdf, n);
-  const texture = new DataTexture(rows, n, 2, RedFormat, FloatType);
-  texture.minFilter = texture.magFilter = NearestFilter;
-  texture.needsUpdate = true;
-  return texture;
+  const { mass, density } = lobe(table);
+  return { table, texture, scale: new Vector3(...table.scale), lobe: chances(mass, density, mass.length) };
 }

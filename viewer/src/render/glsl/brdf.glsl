@@ -6,10 +6,8 @@
 uniform highp sampler3D uTable; // width phi_d (repeats: its period is pi), height theta_d, depth theta_h
 uniform vec3 uScale;
 
-// f_r in 1/sr; 0 below the horizon.
-vec3 evalBrdf(vec3 n, vec3 wi, vec3 wo) {
-  if (dot(n, wi) <= 0.0 || dot(n, wo) <= 0.0) return vec3(0.0);
-  vec3 angles = toHalfDiff(n, wi, wo);
+// f_r in 1/sr at (theta_h, theta_d, phi_d); both directions are above the horizon.
+vec3 evalTable(vec3 angles) {
   vec4 sum = texture(uTable, vec3(angles.z / PI, angles.y / (0.5 * PI), sqrt(angles.x / (0.5 * PI))));
   return sum.a > 0.0 ? uScale * sum.rgb / sum.a : vec3(0.0);
 }

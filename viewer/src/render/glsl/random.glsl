@@ -1,8 +1,8 @@
-// Points of a six-dimensional additive recurrence in 32-bit integers: x_i = i (1/g, 1/g^2, ... 1/g^6) mod 1 with g^7 = g + 1
+// Points of a four-dimensional additive recurrence in 32-bit integers: x_i = i (1/g, 1/g^2, 1/g^3, 1/g^4) mod 1 with g^5 = g + 1
 // (M. Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018), shifted by a hash of the pixel. Integers wrap
 // exactly; a float32 product loses the fraction after some thousand points.
 
-const uint STEPS[6] = uint[6](@STEPS@);
+const uint STEPS[4] = uint[4](@STEPS@);
 
 uint hash(uint x) {
   // PCG output permutation: M. Jarzynski, M. Olano, "Hash Functions for GPU Rendering", JCGT 9(3), 2020.
@@ -12,6 +12,6 @@ uint hash(uint x) {
 }
 
 float random(uint i, int dimension, uint pixel) {
-  uint shift = hash(pixel * 6u + uint(dimension));
+  uint shift = hash(pixel * 4u + uint(dimension));
   return float((i * STEPS[dimension] + shift) >> 8u) * (1.0 / 16777216.0);
 }

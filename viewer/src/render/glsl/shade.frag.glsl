@@ -15,7 +15,8 @@ vec3 shade(vec3 n, vec3 at, vec3 wo) {
     vec3 way = uLights[i] - at;
     float distance2 = dot(way, way);
     vec3 wi = way * inversesqrt(distance2);
-    sum += evalBrdf(n, wi, wo) * max(dot(n, wi), 0.0) * uIntensities[i] / distance2;
+    float cosine = dot(n, wi);
+    if (cosine > 0.0) sum += evalTable(toHalfDiff(n, wi, wo)) * cosine * uIntensities[i] / distance2;
   }
   return sum;
 }
@@ -23,19 +24,15 @@ vec3 shade(vec3 n, vec3 at, vec3 wo) {
 uniform uint uFirst;
 uniform int uSamples;
 
-vec3 sampleCosine(vec3 n, vec2 u) {
-  float phi = 2.0 * PI * u.y;
-  vec3 x = perpendicular(n);
-  return sqrt(u.x) * (cos(phi) * x + sin(phi) * cross(n, x)) + sqrt(1.0 - u.x) * n;
-}
-
 // One sample of the multi-sample estimator with the balance heuristic: E. Veach, L. Guibas, "Optimally Combining
 // Sampling Techniques for Monte Carlo Rendering", SIGGRAPH 1995, section 3.
 vec3 contribution(vec3 n, vec3 wi, vec3 wo) {
   float cosine = dot(n, wi);
   if (cosine <= 0.0) return vec3(0.0);
-  float pdf = pdfEnv(wi) + pdfLobe(n, wi, wo) + cosine / PI;
-  return evalBrdf(n, wi, wo) * radiance(wi) * cosine / pdf;
+  vec3 angles = toHalfDiff(n, wi, wo);
+  vec2 uv = toPicture(wi);
+  float pdf = pdfEnv(wi, uv) + pdfLobe(angles.x, angles.y);
+  return evalTable(angles) * radiance(uv) * cosine / pdf;
 }
 
 vec3 shade(vec3 n, vec3 at, vec3 wo) {
@@ -43,12 +40,8 @@ vec3 shade(vec3 n, vec3 at, vec3 wo) {
   vec3 sum = vec3(0.0);
   for (int s = 0; s < uSamples; s++) {
     uint i = uFirst + uint(s);
-    vec2 u = vec2(random(i, 0, pixel), random(i, 1, pixel));
-    vec2 v = vec2(random(i, 2, pixel), random(i, 3, pixel));
-    vec2 w = vec2(random(i, 4, pixel), random(i, 5, pixel));
-    sum += contribution(n, sampleEnv(u), wo);
-    sum += contribution(n, normalize(sampleLobe(n, wo, v)), wo);
-    sum += contribution(n, normalize(sampleCosine(n, w)), wo);
+    sum += contribution(n, sampleEnv(vec2(random(i, 0, pixel), random(i, 1, pixel))), wo);
+    sum += contribution(n, sampleLobe(n, wo, vec2(random(i, 2, pixel), random(i, 3, pixel))), wo);
   }
   return sum / float(uSamples);
 }

@@ -1,0 +1,142 @@
+"""Values on which Python and TypeScript must agree: ``python tests/golden/make_golden.py`` writes them.
+
+Python's are the reference. ``viewer/tests`` reads the files, and ``tests/test_server.py`` checks that they are current.
+"""
+
+import base64
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from halfway.brdf import TabularBrdf
+from halfway.halfdiff import MERL, Grid, HalfDiff, from_half_diff, to_half_diff
+from halfway.library import Pca, ProceduralLibrary
+from halfway.render.pictures import to_srgb
+from halfway.server.blocks import Block
+from halfway.space import PaperSpace, Recipe, Route
+
+HERE = Path(__file__).parent
+GRID = Grid.merl(4, 3, 6)
+
+
+def golden() -> dict[str, Any]:
+    """Each file's contents, by its name."""
+    return {
+        "halfdiff": _half_diff(),
+        "grid": _grid(),
+        "lookup": _lookup(),
+        "recipe": _recipe(),
+        "colour": _colour(),
+    }
+
+
+def _directions(rng: np.random.Generator, n: int) -> np.ndarray:
+    v = rng.normal(size=(n, 3))
+    v[:, 2] = np.abs(v[:, 2])
+    return v / np.linalg.norm(v, axis=1, keepdims=True)
+
+
+def _half_diff() -> list[dict[str, Any]]:
+    rng = np.random.default_rng(1)
+    wi, wo = _directions(rng, 40), _directions(rng, 40)
+    # Near the pole, where acos loses digits: the first cells of theta_h are 0.011 degrees wide.
+    tiny = HalfDiff(
+        *(
+            np.array(x)
+            for x in ([1e-5, 1e-4, 2e-4], [0.3, 2.0, -1.0], [0.2, 0.9, 1.4], [0.5, -2.0, 3.0])
+        )
+    )
+    near_i, near_o = from_half_diff(tiny)
+    wi, wo = np.concatenate([wi, near_i]), np.concatenate([wo, near_o])
+    angles = to_half_diff(wi, wo)
+    return [
+        {
+            "wi": wi[i].tolist(),
+            "wo": wo[i].tolist(),
+            "angles": [float(angle[i]) for angle in angles],
+        }
+        for i in range(len(wi))
+    ]
+
+
+def _grid() -> list[dict[str, Any]]:
+    rows: list[dict[str, Any]] = []
+    for axis in MERL.axes:
+        low = -axis.stop if axis.periodic else 0.0
+        angles = [*np.linspace(low, axis.stop, 23, endpoint=not axis.periodic), 1e-4]
+        centres = axis.centres()[[0, 1, -1]]
+        rows += [
+            {
+                "axis": vars(axis),
+                "angle": float(angle),
+                "position": float(axis.to_position(np.array(angle))),
+            }
+            for angle in [*angles, *centres]
+        ]
+    return rows
+
+
+def _table() -> TabularBrdf:
+    """Half floats, so that nothing is rounded; some samples unmeasured that the mask has, others as the mask says."""
+    values = (
+        np.random.default_rng(2)
+        .gamma(0.5, size=(3, *GRID.shape))
+        .astype(np.float16)
+        .astype(np.float32)
+    )
+    values[0] *= 2.0**17
+    values[:, ~GRID.mask()] = np.nan
+    values[:, 1, 1, 2] = np.nan
+    return TabularBrdf(values, GRID, name="golden")
+
+
+def _lookup() -> dict[str, Any]:
+    table = _table()
+    block = Block.of_table(table)
+    rng = np.random.default_rng(3)
+    wi, wo = _directions(rng, 60), _directions(rng, 60)
+    wi[0, 2] *= -1
+    values = np.nan_to_num(table.eval(wi, wo))
+    return {
+        "grid": [vars(axis) for axis in GRID.axes],
+        "scale": block.scale,
+        "halfs": base64.b64encode(block.body).decode(),
+        "wi": wi.tolist(),
+        "wo": wo.tolist(),
+        "values": values.tolist(),
+    }
+
+
+def _recipe() -> dict[str, Any]:
+    from halfway.server.explorer import to_view
+
+    rng = np.random.default_rng(4)
+    tables = {
+        f"material-{i}": TabularBrdf(rng.gamma(0.5, size=(3, *GRID.shape)).astype(np.float32), GRID)
+        for i in range(20)
+    }
+    library = ProceduralLibrary("golden", tables, grid=GRID)
+    route = Route.through(
+        PaperSpace.fit(library, Pca.fit(library)), ["material-0", "material-3", "material-5"]
+    )
+    ts = [0.0, 0.1, 0.25, float(route.knots[1]), 0.5, 0.7, 0.999, 1.0]
+    recipes: list[Recipe] = route.recipes(ts)
+    return {
+        "route": to_view(route).model_dump(mode="json"),
+        "recipes": [{"t": t, **recipe.to_json()} for t, recipe in zip(ts, recipes, strict=True)],
+    }
+
+
+def _colour() -> dict[str, list[float]]:
+    linear = [0.0, 0.001, 0.0031308, 0.0032, 0.01, 0.18, 0.5, 0.9, 1.0, 3.0]
+    return {
+        "linear": linear,
+        "bytes": to_srgb(np.array(linear)[:, None, None] * np.ones(3))[:, 0, 0].tolist(),
+    }
+
+
+if __name__ == "__main__":
+    for name, document in golden().items():
+        (HERE / f"{name}.json").write_text(json.dumps(document) + "\n")

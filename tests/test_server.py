@@ -1,0 +1,286 @@
+import importlib.util
+import json
+import socket
+import threading
+import urllib.request
+from pathlib import Path
+from types import ModuleType
+
+import numpy as np
+import pytest
+from fastapi.testclient import TestClient
+from numpy.testing import assert_allclose, assert_array_equal
+
+from halfway.brdf import TabularBrdf
+from halfway.formats import write_merl
+from halfway.halfdiff import Grid
+from halfway.library import ProceduralLibrary
+from halfway.server import Page, create_app
+from halfway.server.blocks import Block
+from halfway.server.guard import MAX_BODY
+from halfway.server.page import Asset
+from halfway.space import SPACES, Recipe, Route, make_space, mix
+
+ROOT = Path(__file__).parents[1]
+HOST = "http://127.0.0.1:8765"
+PAGE = Page({"index.html": Asset(b"<!doctype html>", "text/html; charset=utf-8", '"1"')})
+
+
+@pytest.fixture(scope="module")
+def client(small_library: ProceduralLibrary) -> TestClient:
+    return TestClient(create_app(small_library, page=PAGE), base_url=HOST)
+
+
+def script(path: Path) -> ModuleType:
+    spec = importlib.util.spec_from_file_location(path.stem, path)
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def halfs(body: bytes, shape: str) -> np.ndarray:
+    return np.frombuffer(body, "<f2").reshape([int(n) for n in shape.split(",")])
+
+
+# What it says of the library
+
+
+def test_the_library_is_described(client: TestClient, small_library: ProceduralLibrary) -> None:
+    summary = client.get("/api/library").json()
+    assert summary["name"] == "small"
+    assert [material["name"] for material in summary["materials"]] == list(small_library.names)
+    assert [axis["size"] for axis in summary["grid"]] == [6, 5, 8]
+    assert [space["name"] for space in summary["spaces"]] == list(SPACES)
+    assert len(summary["lights"]) == 3
+
+
+def test_a_table_is_its_samples_times_a_scale(
+    client: TestClient, small_library: ProceduralLibrary
+) -> None:
+    answer = client.get("/api/tables/material-3")
+    block = halfs(answer.content, answer.headers["halfway-shape"])
+    scale = [float(x) for x in answer.headers["halfway-scale"].split(",")]
+    table = np.moveaxis(small_library.brdf("material-3").values, 0, -1)
+    measured = ~np.isnan(table).any(axis=-1)
+    assert_array_equal(block[..., 3], measured)
+    assert_array_equal(block[~measured], 0)
+    # 11 significant bits, rounded to nearest; below 2^-14 the steps are 2^-24.
+    assert_allclose(block[measured][:, :3] * scale, table[measured], rtol=2**-11, atol=2**-25)
+
+
+def test_a_table_that_half_floats_cannot_hold_is_scaled_by_a_power_of_two() -> None:
+    grid = Grid.merl(2, 2, 2)
+    values = np.full((3, *grid.shape), 1.0, np.float32)
+    values[1, 0, 0, 0] = 300_000.0
+    block = Block.of_table(TabularBrdf(values, grid))
+    assert block.scale == (1.0, 8.0, 1.0)
+    assert 8.0 * float(halfs(block.body, "2,2,2,4")[0, 0, 0, 1]) == pytest.approx(
+        300_000.0, rel=2**-11
+    )
+
+
+def test_a_table_that_the_browser_has_is_not_sent_again(client: TestClient) -> None:
+    first = client.get("/api/tables/material-0")
+    again = client.get("/api/tables/material-0", headers={"If-None-Match": first.headers["etag"]})
+    assert (again.status_code, again.content) == (304, b"")
+
+
+def test_thumbnails_are_the_basis_images(client: TestClient) -> None:
+    answer = client.get("/api/thumbnails")
+    block = halfs(answer.content, answer.headers["halfway-shape"])
+    assert block.shape == (9, 64, 64, 4)
+    assert (block[block[..., 3] == 0] == 0).all()
+    assert (block[block[..., 3] == 1][:, :3] > 0).any()
+
+
+def test_a_route_is_that_of_the_package(
+    client: TestClient, small_library: ProceduralLibrary
+) -> None:
+    stops = ["material-0", "material-4", "material-2"]
+    view = client.get("/api/route", params={"space": "paper", "stop": stops}).json()
+    route = Route.through(make_space("paper", small_library), stops)
+    used = [small_library.names.index(name) for name in view["names"]]
+    assert_allclose(view["knots"], route.knots, rtol=0, atol=0)
+    for c, channel in enumerate("rgb"):
+        assert_array_equal(view["weights"][channel], route.weights[c][:, used])
+    assert view["stop_t"] == [0, 0.5, 1]
+
+
+@pytest.mark.parametrize("space", SPACES)
+def test_every_space_can_be_looked_at(
+    client: TestClient, small_library: ProceduralLibrary, space: str
+) -> None:
+    view = client.get(f"/api/spaces/{space}").json()
+    for embedding in view["embeddings"]:
+        assert len(embedding["points"]) == len(small_library)
+        assert {i for edge in embedding["edges"] for i in edge} <= set(range(len(small_library)))
+
+
+# Taking a material home
+
+
+def test_the_downloaded_file_is_the_written_one(
+    client: TestClient, small_library: ProceduralLibrary, tmp_path: Path
+) -> None:
+    weights = {
+        "r": {"material-1": 1.0},
+        "g": {"material-1": 0.25, "material-2": 0.75},
+        "b": {"material-5": 1.0},
+    }
+    answer = client.post("/api/export/merl", json={"library": "small", "weights": weights})
+    write_merl(tmp_path / "mixed.binary", mix(small_library, Recipe.of("small", weights)))
+    assert answer.content == (tmp_path / "mixed.binary").read_bytes()
+
+
+def test_a_recipe_of_another_library_is_refused(client: TestClient) -> None:
+    answer = client.post(
+        "/api/export/merl", json={"library": "other", "weights": {"material-1": 1}}
+    )
+    assert answer.status_code == 400
+    assert "'other'" in answer.json()["error"]
+
+
+# Mistakes
+
+
+@pytest.mark.parametrize(
+    ("path", "status", "said"),
+    [
+        ("/api/tables/material-77", 400, "'material-77' is not one of the 9 materials"),
+        ("/api/tables/..%2F..%2Fetc%2Fpasswd", 404, "nothing this server answers"),
+        ("/../../pyproject.toml", 404, "nothing this server answers"),
+        ("/api/spaces/cubic", 400, "there is no space 'cubic'"),
+        ("/api/route?space=paper", 400, "query.stop"),
+        ("/api/route?space=paper&stop=material-1", 400, "goes nowhere"),
+        ("/api/route?space=paper&pace=brisk&stop=material-1&stop=material-2", 400, "'brisk'"),
+        ("/api/nothing", 404, "nothing this server answers"),
+    ],
+)
+def test_a_mistake_is_one_line(client: TestClient, path: str, status: int, said: str) -> None:
+    answer = client.get(path)
+    assert answer.status_code == status
+    assert list(answer.json()) == ["error"]
+    assert said in answer.json()["error"]
+    assert "\n" not in answer.json()["error"]
+
+
+@pytest.mark.parametrize(
+    "recipe",
+    [
+        {"library": "small", "weights": {"material-1": -1, "material-2": 2}},
+        {"library": "small", "weights": {"material-1": 0.5}},
+        {"library": "small", "weights": {"material-99": 1}},
+        {"library": "small"},
+        [],
+        {"library": "small", "weights": {"r": {"material-1": 1}}},
+    ],
+)
+def test_what_is_no_recipe_is_refused(client: TestClient, recipe: object) -> None:
+    answer = client.post("/api/export/merl", json=recipe)
+    assert answer.status_code == 400
+    assert answer.json()["error"]
+
+
+def test_another_name_for_this_machine_is_refused(client: TestClient) -> None:
+    answer = client.get("/api/library", headers={"Host": "attacker.example:8765"})
+    assert answer.status_code == 421
+    assert "attacker.example" in answer.json()["error"]
+
+
+def test_a_page_of_another_origin_is_refused(client: TestClient) -> None:
+    assert client.get("/api/library", headers={"Origin": HOST}).status_code == 200
+    assert (
+        client.get("/api/library", headers={"Origin": "https://attacker.example"}).status_code
+        == 403
+    )
+    assert client.get("/api/library", headers={"Origin": "null"}).status_code == 403
+
+
+def test_a_request_that_is_too_large_is_refused(client: TestClient) -> None:
+    answer = client.post("/api/export/merl", content=b" " * (MAX_BODY + 1))
+    assert answer.status_code == 413
+
+
+def test_a_fault_of_ours_is_one_line_too(
+    small_library: ProceduralLibrary, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    client = TestClient(create_app(small_library), base_url=HOST, raise_server_exceptions=False)
+    monkeypatch.setattr(ProceduralLibrary, "row", lambda *_: 1 / 0)
+    answer = client.get("/api/tables/material-5")
+    assert answer.status_code == 500
+    assert "ZeroDivisionError" in answer.json()["error"]
+
+
+# The page
+
+
+def test_the_page_runs_only_its_own_code(client: TestClient) -> None:
+    answer = client.get("/")
+    assert answer.content == PAGE.assets["index.html"].body
+    policy = answer.headers["content-security-policy"]
+    assert "default-src 'none'" in policy
+    assert "script-src 'self'" in policy
+    assert "unsafe" not in policy
+
+
+def test_it_is_served_over_http_until_stopped(small_library: ProceduralLibrary) -> None:
+    import uvicorn
+
+    from halfway.server.run import listen
+
+    with listen(0) as listener:
+        config = uvicorn.Config(create_app(small_library, page=PAGE), log_level="error")
+        server = uvicorn.Server(config)
+        thread = threading.Thread(target=server.run, args=([listener],), daemon=True)
+        thread.start()
+        address = f"http://127.0.0.1:{listener.getsockname()[1]}/"
+        with urllib.request.urlopen(address, timeout=20) as answer:
+            assert answer.read() == b"<!doctype html>"
+        server.should_exit = True
+        thread.join(20)
+        assert not thread.is_alive()
+
+
+def test_a_port_that_is_taken_is_replaced_by_a_free_one() -> None:
+    from halfway.server.run import listen
+
+    with socket.create_server(("127.0.0.1", 0)) as taken:
+        port = taken.getsockname()[1]
+        with listen(port) as listener:
+            assert listener.getsockname()[1] != port
+
+
+# What is written for the other side
+
+
+def test_the_typescript_types_are_current() -> None:
+    make_types = script(ROOT / "viewer" / "scripts" / "make_types.py")
+    assert make_types.TARGET.read_text() == make_types.types(), (
+        "run python viewer/scripts/make_types.py"
+    )
+
+
+def test_the_golden_values_are_current() -> None:
+    make_golden = script(ROOT / "tests" / "golden" / "make_golden.py")
+    for name, document in make_golden.golden().items():
+        committed = json.loads((ROOT / "tests" / "golden" / f"{name}.json").read_text())
+        assert_same(committed, json.loads(json.dumps(document)))
+
+
+def assert_same(a: object, b: object) -> None:
+    """Equal, numbers to rounding: another machine's sine may differ in the last digit."""
+    assert type(a) is type(b)
+    if isinstance(a, dict) and isinstance(b, dict):
+        assert a.keys() == b.keys()
+        for key in a:
+            assert_same(a[key], b[key])
+    elif isinstance(a, list) and isinstance(b, list):
+        assert len(a) == len(b)
+        for x, y in zip(a, b, strict=True):
+            assert_same(x, y)
+    elif isinstance(a, float):
+        assert a == pytest.approx(b, rel=1e-9, abs=1e-12)
+    else:
+        assert a == b
