@@ -73,6 +73,16 @@ def test_an_animation_has_all_its_frames(tmp_path, suffix):
         assert animation.info["duration"] == 100
 
 
+def test_a_video_has_all_its_frames_and_an_even_size(tmp_path):
+    av = pytest.importorskip("av", reason="the extra halfway[video] is not installed")
+    path = tmp_path / "a.mp4"
+    pictures.animate(path, [grey(v, 33) for v in (0.1, 0.4, 0.9)], fps=10.0)
+    with av.open(str(path)) as container:
+        frames = [frame.to_ndarray(format="rgb24") for frame in container.decode(video=0)]
+    assert [frame.shape for frame in frames] == [(32, 32, 3)] * 3
+    assert_allclose(frames[1].mean(), pictures.to_srgb(grey(0.4)).mean(), atol=4)
+
+
 @pytest.mark.parametrize("name", ["a", "a.bmp", "a.mov"])
 def test_an_unknown_suffix_is_refused_with_what_is_known(tmp_path, name):
     with pytest.raises(OutputError, match=r"expected one of \.png"):

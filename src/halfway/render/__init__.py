@@ -1,8 +1,20 @@
 """Pictures of materials, through Mitsuba 3. Mitsuba itself loads when the first `Renderer` is made."""
 
 from . import pictures
-from .renderer import Renderer
+from .basis import BasisPictures
+from .doctor import Finding, doctor
+from .renderer import QUALITY, Renderer
 from .scenes import SCENES, Scene
 from .variant import register
 
-__all__ = ["SCENES", "Renderer", "Scene", "pictures", "register"]
+__all__ = [
+    "QUALITY",
+    "SCENES",
+    "BasisPictures",
+    "Finding",
+    "Renderer",
+    "Scene",
+    "doctor",
+    "pictures",
+    "register",
+]

@@ -9,7 +9,8 @@ A picture is linear RGB radiance, float32, shape (height, width, 3). What a scre
 """
 
 from collections.abc import Iterable, Sequence
-from itertools import zip_longest
+from fractions import Fraction
+from itertools import chain, zip_longest
 from pathlib import Path
 from typing import Any
 
@@ -22,7 +23,7 @@ from ..files import replacing
 PAPER = 255
 INK = (70, 70, 70)
 WRITTEN = (".png", ".jpg", ".jpeg", ".webp", ".exr")
-ANIMATED = (".webp", ".gif")
+ANIMATED = (".webp", ".gif", ".mp4")
 
 
 def to_srgb(image: np.ndarray, *, exposure: float = 0.0) -> np.ndarray:
@@ -83,7 +84,7 @@ def sheet(
 def animate(
     path: Path | str, images: Iterable[np.ndarray], *, fps: float = 12, exposure: float = 0.0
 ) -> None:
-    """Write pictures as an animation that repeats: ``.webp`` or ``.gif``.
+    """Write pictures as an animation: ``.webp`` or ``.gif``, which repeat, or ``.mp4`` (H.264; needs ``halfway[video]``).
 
     Raises
     ------
@@ -92,19 +93,13 @@ def animate(
     """
     path = Path(path)
     _require_suffix(path, ANIMATED)
-    frames = [Image.fromarray(to_srgb(image, exposure=exposure)) for image in images]
-    if not frames:
+    coded = (to_srgb(image, exposure=exposure) for image in images)
+    first = next(coded, None)
+    if first is None:
         raise OutputError(f"{path} would be an animation of no pictures: expected one or more.")
-    options: dict[str, Any] = {"quality": 88, "method": 4} if path.suffix.lower() == ".webp" else {}
+    write_frames = _write_mp4 if path.suffix.lower() == ".mp4" else _write_loop
     with replacing(path) as temporary:
-        frames[0].save(
-            temporary,
-            save_all=True,
-            append_images=frames[1:],
-            duration=round(1000 / fps),
-            loop=0,
-            **options,
-        )
+        write_frames(temporary, chain([first], coded), fps)
 
 
 def _require_suffix(path: Path, known: tuple[str, ...]) -> None:
@@ -112,6 +107,36 @@ def _require_suffix(path: Path, known: tuple[str, ...]) -> None:
         raise OutputError(
             f"{path} has no suffix that says what to write: expected one of {', '.join(known)}."
         )
+
+
+def _write_loop(path: Path, frames: Iterable[np.ndarray], fps: float) -> None:
+    """Through Pillow, for ever."""
+    first, *rest = map(Image.fromarray, frames)
+    options: dict[str, Any] = {"quality": 88, "method": 4} if path.suffix.lower() == ".webp" else {}
+    first.save(
+        path, save_all=True, append_images=rest, duration=round(1000 / fps), loop=0, **options
+    )
+
+
+def _write_mp4(path: Path, frames: Iterable[np.ndarray], fps: float) -> None:
+    """H.264 through PyAV, once; an odd last row or column is left out, as the format takes none."""
+    try:
+        import av
+    except ImportError as error:
+        raise OutputError(
+            f"{path.suffix} needs the package av, which is not installed: "
+            "run pip install 'halfway[video]', or write .webp or .gif."
+        ) from error
+    first, *rest = frames
+    height, width = (size // 2 * 2 for size in first.shape[:2])
+    with av.open(str(path), "w") as container:
+        stream: Any = container.add_stream("libx264", rate=Fraction(fps).limit_denominator(1000))
+        stream.height, stream.width, stream.pix_fmt = height, width, "yuv420p"
+        stream.options = {"crf": "16", "preset": "slow"}
+        for frame in (first, *rest):
+            even = np.ascontiguousarray(frame[:height, :width])
+            container.mux(stream.encode(av.VideoFrame.from_ndarray(even, format="rgb24")))
+        container.mux(stream.encode())
 
 
 def _write_exr(path: Path, image: np.ndarray) -> None:

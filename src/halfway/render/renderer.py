@@ -4,28 +4,42 @@ With direct light a picture has two layers that add up:
 
     picture = object(material) + backdrop
 
-The object is lit by the environment alone, whose floor stands for the ground. The backdrop is the ground with the shadow of the
-object, black where the object covers it; no material enters, so it is rendered once. The object's layer is linear in the BRDF and
-the backdrop constant: with weights that sum to 1, the picture of a mix is the mix of the pictures.
+The object is lit by the environment alone, whose floor stands for the ground. The backdrop is the ground with the shadow
+of the object, black where the object covers it; no material enters, so it is rendered once (and denoised, where that is
+possible). The object's layer is linear in the BRDF and the backdrop constant: with weights that sum to 1, the picture of a
+mix is the mix of the pictures.
 
 With more bounces the ground and the objects stand in one scene and light each other, and that no longer holds.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import cached_property
+from hashlib import sha256
 from pathlib import Path
 
 import numpy as np
 
 from ..brdf import TabularBrdf
 from ..errors import RenderError
+from .denoise import denoised, denoiser_available, require_denoiser
+from .exposure import Exposure, Layer, no_progress
 from .scenes import SCENES, Scene
+from .studio import studio
 from .variant import register
 
+BACKGROUND = 0.03
+"""Radiance behind the objects of a scene without a ground."""
+BACKDROP_SPP = 64, 256
+"""At least so many samples for the backdrop, with a denoiser and without."""
 LARGEST_SIZE = 8192
 LARGEST_SPP = 65536
-BACKDROP_SPP = 64
-"""At least so many samples for the backdrop, which is rendered once."""
+
+QUALITY = {
+    "preview": {"spp": 16, "denoise": True},
+    "normal": {"spp": 64, "denoise": False},
+    "final": {"spp": 256, "denoise": False},
+}
+"""Options of a `Renderer` by the name of a quality."""
 
 
 class Renderer:
@@ -47,6 +61,8 @@ class Renderer:
         Object in place of the scene's teapot (of its sphere where it has none): ``.ply`` or ``.obj``, y up.
     bounces : int, optional
         Of light between surfaces, in place of the scene's own.
+    denoise : bool
+        Take the noise out of each picture. A denoised picture of a mix is not quite the mix of the denoised pictures.
 
     Raises
     ------
@@ -70,6 +86,7 @@ class Renderer:
         env: Path | str | None = None,
         mesh: Path | str | None = None,
         bounces: int | None = None,
+        denoise: bool = False,
     ) -> None:
         self.scene = _scene(scene)
         self.size = size
@@ -81,35 +98,65 @@ class Renderer:
         _require("spp", spp, 1, LARGEST_SPP)
         _require("bounces", self.bounces, 1, 1000)
         register()
+        if denoise:
+            require_denoiser()
+        self._denoise = denoise
         from .stage import Stage
 
-        self._stage = Stage(
-            self.scene,
-            size=size,
-            env=None if env is None else Path(env),
-            mesh=None if mesh is None else Path(mesh),
-        )
+        env, mesh = (None if path is None else Path(path) for path in (env, mesh))
+        self._files = env, mesh
+        self._stage = Stage(self.scene, size=size, env=env, mesh=mesh)
 
     @property
     def linear(self) -> bool:
         """Whether the picture of a mix is the mix of the pictures (see the top of the module)."""
         return self.bounces == 1
 
-    def picture(self, brdf: TabularBrdf | Sequence[TabularBrdf]) -> np.ndarray:
+    def picture(
+        self,
+        brdf: TabularBrdf | Sequence[TabularBrdf],
+        *,
+        progress: Callable[[int, int], None] = no_progress,
+    ) -> np.ndarray:
         """The picture of a material, float32, shape (height, width, 3): linear RGB radiance.
 
-        A scene of several materials takes as many tables; one table dresses all of its objects.
+        A scene of several materials takes as many tables; one table dresses all of its objects. ``progress`` is called
+        with the passes done and their number: a large picture takes several.
         """
         tables = self._tables(brdf)
-        if not self.linear:
-            return self._stage.whole(tables, bounces=self.bounces, spp=self.spp, seed=self.seed)
-        return self.backdrop + self._stage.objects(tables, spp=self.spp, seed=self.seed)
+        exposure = Exposure(self.spp, self.seed, guides=self._denoise, progress=progress)
+        if self.bounces > 1:
+            layer = _over_background(self._stage.whole(tables, exposure, bounces=self.bounces))
+        else:
+            layer = self._stage.objects(tables, exposure) + self._backdrop
+        return denoised(layer) if self._denoise else layer.radiance
+
+    def fingerprint(self) -> str:
+        """Letters that change when anything but the material changes the picture: 32 hexadecimal digits."""
+        digest = sha256(
+            f"1 {self.scene} {self.size} {self.spp} {self.seed} {self.bounces} {self._denoise}".encode()
+        )
+        for path in self._files:
+            digest.update(b"none" if path is None else path.read_bytes())
+        digest.update(studio(16).tobytes())
+        return digest.hexdigest()[:32]
+
+    @property
+    def backdrop(self) -> np.ndarray:
+        """What is behind the objects, black where they cover it, float32, shape (height, width, 3)."""
+        return self._backdrop.radiance
 
     @cached_property
-    def backdrop(self) -> np.ndarray:
-        """What is behind the objects, black where they cover it, shape (height, width, 3)."""
-        spp = max(self.spp, BACKDROP_SPP if self.scene.ground else 1)
-        return self._stage.backdrop(spp=spp, seed=self.seed)
+    def _backdrop(self) -> Layer:
+        can_denoise = denoiser_available()
+        least = BACKDROP_SPP[not can_denoise] if self.scene.ground else 1
+        exposure = Exposure(max(self.spp, least), self.seed, guides=can_denoise)
+        layer = _over_background(self._stage.backdrop(exposure))
+        if can_denoise and self.scene.ground:
+            layer = layer._replace(radiance=denoised(layer))
+        # The objects, black here, bring their own guides.
+        seen = layer.albedo > 0
+        return layer._replace(normal=layer.normal * seen)
 
     def _tables(self, brdf: TabularBrdf | Sequence[TabularBrdf]) -> list[TabularBrdf]:
         tables = [brdf] if isinstance(brdf, TabularBrdf) else list(brdf)
@@ -122,6 +169,10 @@ class Renderer:
                 "Give one for all objects or one for each."
             )
         return tables
+
+
+def _over_background(layer: Layer) -> Layer:
+    return layer._replace(radiance=layer.radiance + BACKGROUND * (1 - layer.alpha))
 
 
 def _scene(scene: str | Scene) -> Scene:

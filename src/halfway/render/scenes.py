@@ -76,7 +76,7 @@ SCENES = {
             "teapot",
             "the Utah teapot in a studio of soft boxes",
             (Placed("teapot", height=3.15, turn_degrees=-28.0),),
-            Camera((0.15, -13.0, 5.6), (0.1, 0.0, 1.32), 28.0),
+            Camera((0.15, -13.0, 5.4), (0.12, 0.0, 1.4), 29.0),
             ground=True,
         ),
         Scene(

@@ -10,18 +10,18 @@ import mitsuba as mi
 import numpy as np
 
 from ..brdf import TabularBrdf
-from ..errors import RenderError
 from ..halfdiff import Grid
 from . import bsdf as tables_in_mitsuba
-from .mesh import Mesh, outward, placed, sweep
+from .assets import read_environment, read_mesh
+from .camera import Window, camera_to_world, window
+from .exposure import Exposure, Layer
+from .mesh import Mesh, placed, sweep
 from .sampling import buffer
-from .scenes import Placed, PointLight, Scene
+from .scenes import Camera, Placed, PointLight, Scene
 from .studio import studio
 from .teapot import tessellate
 
-BACKGROUND = 0.03
-"""Radiance behind the objects of a scene without a ground."""
-PAPER = 0.75
+PAPER = 0.42
 """Reflectance of the ground."""
 
 
@@ -32,32 +32,31 @@ class Stage:
         self, scene: Scene, *, size: tuple[int, int], env: Path | None, mesh: Path | None
     ) -> None:
         self._scene = scene
+        self._size = size
         self._meshes = _meshes(scene, mesh)
         self._lights = _lights(scene, env)
-        self._sensor = _sensor(scene, size)
         self._grids: list[Grid] = []
         self._bsdfs: list[Any] = []
         self._scenes: dict[bool, Any] = {}
 
-    def objects(self, tables: list[TabularBrdf], *, spp: int, seed: int) -> np.ndarray:
-        """The objects under direct light, black around them, shape (height, width, 3)."""
+    def objects(self, tables: list[TabularBrdf], exposure: Exposure) -> Layer:
+        """The objects under direct light. No light leaves the frame around them, so no more of it is rendered."""
         self._dress(tables)
-        integrator = mi.load_dict({"type": "direct", "hide_emitters": True})
-        return self._render(self._dressed(ground=False), integrator, spp, seed)
+        return _photograph(self._dressed(ground=False), _direct(), exposure, self._size)
 
-    def whole(self, tables: list[TabularBrdf], *, bounces: int, spp: int, seed: int) -> np.ndarray:
-        """Objects and ground with ``bounces`` of light between them, shape (height, width, 3)."""
+    def whole(self, tables: list[TabularBrdf], exposure: Exposure, *, bounces: int) -> Layer:
+        """Objects and ground, with ``bounces`` of light between them."""
         self._dress(tables)
-        integrator = mi.load_dict({"type": "path", "max_depth": bounces + 1, "hide_emitters": True})
-        scene = self._dressed(ground=self._scene.ground)
-        return self._over_background(self._render(scene, integrator, spp, seed, alpha=True))
+        integrator = {"type": "path", "max_depth": bounces + 1, "hide_emitters": True}
+        return _photograph(
+            self._dressed(ground=self._scene.ground), integrator, exposure, self._size
+        )
 
-    def backdrop(self, *, spp: int, seed: int) -> np.ndarray:
+    def backdrop(self, exposure: Exposure) -> Layer:
         """The ground under direct light with the shadows of the objects, which are black."""
         black = mi.load_dict({"type": "diffuse", "reflectance": 0.0})
         scene = self._load([black] * self._scene.n_materials, ground=self._scene.ground)
-        integrator = mi.load_dict({"type": "direct", "hide_emitters": True})
-        return self._over_background(self._render(scene, integrator, spp, seed, alpha=True))
+        return _photograph(scene, _direct(), exposure, self._size)
 
     def _dress(self, tables: list[TabularBrdf]) -> None:
         grids = [table.grid for table in tables]
@@ -77,29 +76,53 @@ class Stage:
         return self._scenes[ground]
 
     def _load(self, bsdfs: list[Any], *, ground: bool) -> Any:
-        description: dict[str, Any] = {"type": "scene", "sensor": self._sensor, **self._lights}
+        window = None if ground else self._window()
+        sensor = _sensor(self._scene.camera, self._size, window)
+        description: dict[str, Any] = {"type": "scene", "sensor": sensor, **self._lights}
         for i, (place, mesh) in enumerate(zip(self._scene.objects, self._meshes, strict=True)):
-            bsdf = bsdfs[place.material]
-            description[f"object_{i}"] = _shape(place, mesh, bsdf)
+            description[f"object_{i}"] = _shape(place, mesh, bsdfs[place.material])
         if ground:
             paper = {"type": "diffuse", "reflectance": PAPER}
             bsdf = mi.load_dict({"type": "twosided", "bsdf": paper})
             description["ground"] = _mesh("ground", sweep(), bsdf)
         return mi.load_dict(description)
 
-    def _render(
-        self, scene: Any, integrator: Any, spp: int, seed: int, *, alpha: bool = False
-    ) -> np.ndarray:
-        image = np.array(mi.render(scene, integrator=integrator, spp=spp, seed=mi.UInt32(seed)))
-        return image if alpha else image[..., :3]
+    def _window(self) -> Window:
+        corners = [
+            _box(place) if mesh is None else mesh.positions
+            for place, mesh in zip(self._scene.objects, self._meshes, strict=True)
+        ]
+        return window(self._scene.camera, self._size, np.concatenate(corners))
 
-    def _over_background(self, rgba: np.ndarray) -> np.ndarray:
-        return rgba[..., :3] + BACKGROUND * (1 - rgba[..., 3:])
+
+def _direct() -> dict[str, Any]:
+    return {"type": "direct", "hide_emitters": True}
+
+
+def _photograph(
+    scene: Any, integrator: dict[str, Any], exposure: Exposure, size: tuple[int, int]
+) -> Layer:
+    """The layer of a scene in the frame of ``size``; around the sensor's window it is empty."""
+    if exposure.guides:
+        aovs = "albedo:albedo,normal:sh_normal"
+        integrator = {"type": "aov", "aovs": aovs, "inner": integrator}
+    photographer = mi.load_dict(integrator)
+    film = scene.sensors()[0].film()
+    (x, y), (width, height) = (tuple(map(int, v)) for v in (film.crop_offset(), film.crop_size()))
+    passes = exposure.passes(width * height)
+    total = np.zeros((height, width, 10 if exposure.guides else 4), np.float32)
+    for i, seed in enumerate(passes.seeds):
+        image = mi.render(scene, integrator=photographer, spp=passes.spp, seed=mi.UInt32(seed))
+        total += np.array(image)
+        exposure.progress(i + 1, len(passes.seeds))
+    frame = np.zeros((size[1], size[0], 10), np.float32)
+    frame[y : y + height, x : x + width, : total.shape[2]] = total / len(passes.seeds)
+    return Layer(frame[..., :3], frame[..., 3:4], frame[..., 4:7], frame[..., 7:10])
 
 
 def _meshes(scene: Scene, mesh: Path | None) -> list[Mesh | None]:
     """The mesh of each object; None for a sphere, which Mitsuba has itself."""
-    own = None if mesh is None else _read_mesh(mesh)
+    own = None if mesh is None else read_mesh(mesh)
     replaced = "teapot" if any(o.shape == "teapot" for o in scene.objects) else "sphere"
     shapes: list[Mesh | None] = []
     for place in scene.objects:
@@ -110,57 +133,6 @@ def _meshes(scene: Scene, mesh: Path | None) -> list[Mesh | None]:
         else:
             shapes.append(None)
     return shapes
-
-
-def _read_mesh(path: Path) -> Mesh:
-    """The triangles of a ``.ply`` or ``.obj`` file, y up in the file, faces turned outward."""
-    kind = _require_file(path, "mesh", (".ply", ".obj"))
-    try:
-        shape = mi.load_dict({"type": kind, "filename": str(path)})
-        parameters = mi.traverse(shape)
-        faces = np.array(parameters["faces"]).reshape(-1, 3)
-        positions = np.array(parameters["vertex_positions"]).reshape(-1, 3)
-        normals = np.array(parameters["vertex_normals"]).reshape(-1, 3)
-    except RuntimeError as error:
-        raise RenderError(f"The mesh {path} cannot be read: {_first_line(error)}") from error
-    if not len(faces) or not np.isfinite(positions).all():
-        raise RenderError(
-            f"The mesh {path} has {len(faces)} triangles and {np.isnan(positions).sum()} missing coordinates: "
-            "expected one or more triangles and none missing."
-        )
-    return outward(positions, normals, faces)
-
-
-def _read_environment(path: Path) -> Any:
-    _require_file(path, "environment", (".hdr", ".exr"))
-    try:
-        bitmap = mi.Bitmap(str(path)).convert(
-            mi.Bitmap.PixelFormat.RGB, mi.Struct.Type.Float32, False
-        )
-    except RuntimeError as error:
-        raise RenderError(f"The environment {path} cannot be read: {_first_line(error)}") from error
-    radiance = np.array(bitmap)
-    if not np.isfinite(radiance).all() or radiance.max() <= 0:
-        raise RenderError(
-            f"The environment {path} has radiance from {radiance.min()} to {radiance.max()}: "
-            "expected finite values, some above 0."
-        )
-    return bitmap
-
-
-def _require_file(path: Path, what: str, suffixes: tuple[str, ...]) -> str:
-    """The suffix without its dot."""
-    if path.suffix.lower() not in suffixes:
-        raise RenderError(
-            f"The {what} {path} is of an unknown kind: expected {' or '.join(suffixes)}."
-        )
-    if not path.is_file():
-        raise RenderError(f"The {what} {path} does not exist.")
-    return path.suffix.lower()[1:]
-
-
-def _first_line(error: Exception) -> str:
-    return str(error).strip().splitlines()[-1]
 
 
 def _shape(place: Placed, mesh: Mesh | None, bsdf: Any) -> Any:
@@ -188,7 +160,7 @@ def _mesh(name: str, mesh: Mesh, bsdf: Any) -> Any:
 def _lights(scene: Scene, env: Path | None) -> dict[str, Any]:
     if scene.points:
         return {f"light_{i}": _point(light) for i, light in enumerate(scene.points)}
-    bitmap = mi.Bitmap(studio()) if env is None else _read_environment(env)
+    bitmap = mi.Bitmap(studio()) if env is None else read_environment(env)
     T = mi.ScalarTransform4f
     # Mitsuba's environments have y up and their middle at +z; ours show +y there.
     to_world = T().rotate([0, 0, 1], 180) @ T().rotate([1, 0, 0], 90)
@@ -203,21 +175,34 @@ def _point(light: PointLight) -> dict[str, Any]:
     }
 
 
-def _sensor(scene: Scene, size: tuple[int, int]) -> dict[str, Any]:
-    camera = scene.camera
+def _box(place: Placed) -> np.ndarray:
+    """Corners of the cube around a sphere."""
+    signs = np.array(np.meshgrid([-1, 1], [-1, 1], [0, 2])).reshape(3, -1).T
+    return np.array(place.at) + signs * place.height / 2
+
+
+def _sensor(camera: Camera, size: tuple[int, int], window: Window | None) -> dict[str, Any]:
+    film: dict[str, Any] = {
+        "type": "hdrfilm",
+        "width": size[0],
+        "height": size[1],
+        "pixel_format": "rgba",
+        "component_format": "float32",
+        # A box keeps the samples of a pixel apart from its neighbours': the denoiser wants that, and it is the fastest.
+        "rfilter": {"type": "box"},
+    }
+    if window is not None:
+        film |= {
+            "crop_offset_x": window.x,
+            "crop_offset_y": window.y,
+            "crop_width": window.width,
+            "crop_height": window.height,
+        }
     return {
         "type": "perspective",
         "fov": camera.fov_degrees,
         "fov_axis": "smaller",
-        "to_world": mi.ScalarTransform4f().look_at(
-            origin=list(camera.at), target=list(camera.target), up=[0, 0, 1]
-        ),
+        "to_world": mi.ScalarTransform4f(camera_to_world(camera)),
         "sampler": {"type": "multijitter"},
-        "film": {
-            "type": "hdrfilm",
-            "width": size[0],
-            "height": size[1],
-            "pixel_format": "rgba",
-            "component_format": "float32",
-        },
+        "film": film,
     }

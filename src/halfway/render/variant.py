@@ -115,7 +115,7 @@ def _choose_llvm() -> None:
     if llvm is None:
         raise RenderError(
             f"No LLVM library of version {OLDEST_LLVM} or later was found, and rendering compiles through it. "
-            f"{_advice()}, or name one in {_PATH_VARIABLE}."
+            f"{llvm_advice()}, or name one in {_PATH_VARIABLE}."
         )
     if not llvm.path.is_file():
         raise RenderError(
@@ -135,7 +135,8 @@ def _import_mitsuba() -> Any:
     return mitsuba
 
 
-def _advice() -> str:
+def llvm_advice() -> str:
+    """How to get one that works."""
     match sys.platform:
         case "linux":
             return "Run pip install karellen-llvm-core"

@@ -1,0 +1,108 @@
+"""Routes from basis images: one render per measured material, however long the route.
+
+With direct light the picture of a mix is the mix of the pictures, channel by channel (see `halfway.render.renderer`):
+
+    picture(recipe)_c = sum_i w_c,i picture(material i)_c        c = r, g, b
+
+so a route of any length costs one render for each measured material that it touches. All of them have the same noise, and
+so no frame flickers against the next.
+"""
+
+from collections import OrderedDict
+from collections.abc import Callable, Iterable, Sequence
+from hashlib import sha256
+from pathlib import Path
+
+import numpy as np
+
+from .._types import Weights
+from ..brdf import TabularBrdf
+from ..errors import RenderError
+from ..library.cache import cached
+from ..tasks import Track, silent
+from .renderer import Renderer
+
+MEMORY = 512 * 2**20
+"""Bytes of basis images kept in memory: 170 of 512 x 512 pixels."""
+
+
+class BasisPictures:
+    """Pictures of recipes in one scene, from pictures of the materials that carry weight.
+
+    Parameters
+    ----------
+    renderer : Renderer
+        Of a scene with direct light. If it denoises, pictures are near to what it would make of the mix, not equal.
+    table : callable
+        The table of a material, by name.
+    cache : path, optional
+        A folder that keeps the pictures between runs, by scene and material.
+
+    Raises
+    ------
+    RenderError
+        When light bounces between the objects, for then pictures do not mix.
+
+    Examples
+    --------
+    >>> basis = BasisPictures(Renderer("teapot"), library.table)                    # doctest: +SKIP
+    >>> frames = [basis.picture(r.names, r.weights) for r in route.recipes(ts)]     # doctest: +SKIP
+    """
+
+    def __init__(
+        self,
+        renderer: Renderer,
+        table: Callable[[str], TabularBrdf],
+        *,
+        cache: Path | None = None,
+    ) -> None:
+        if not renderer.linear:
+            raise RenderError(
+                f"Light bounces {renderer.bounces} times in this {renderer.scene.name}, so the picture of a mix "
+                "is not the mix of the pictures: expected direct light. Use --bounces 1, or render every frame in full."
+            )
+        self._renderer = renderer
+        self._table = table
+        self._cache = cache
+        self._scene = renderer.fingerprint()
+        self._pictures: OrderedDict[str, np.ndarray] = OrderedDict()
+        self._room = max(1, MEMORY // (12 * renderer.size[0] * renderer.size[1]))
+
+    def render(self, names: Iterable[str], *, track: Track = silent) -> None:
+        """Have the pictures of these materials ready: rendered, or read from the cache."""
+        missing = [name for name in dict.fromkeys(names) if name not in self._pictures]
+        for name in track(missing, "Basis images", len(missing)):
+            self._basis(name)
+
+    def picture(self, names: Sequence[str], weights: Weights) -> np.ndarray:
+        """The picture of a recipe, float32, shape (height, width, 3): linear RGB radiance.
+
+        ``weights``, shape (3, n), are those of the n materials ``names``; each row sums to 1.
+        """
+        width, height = self._renderer.size
+        mixed = np.zeros((3, height, width), np.float32)
+        for i, name in enumerate(names):
+            planes = self._basis(name)
+            for channel in range(3):
+                if weights[channel, i] != 0:
+                    mixed[channel] += np.float32(weights[channel, i]) * planes[channel]
+        return np.ascontiguousarray(np.moveaxis(mixed, 0, -1))
+
+    def _basis(self, name: str) -> np.ndarray:
+        """The picture of one material, its channels first."""
+        if name not in self._pictures:
+            self._pictures[name] = self._render(name)
+            if len(self._pictures) > self._room:
+                self._pictures.popitem(last=False)
+        self._pictures.move_to_end(name)
+        return self._pictures[name]
+
+    def _render(self, name: str) -> np.ndarray:
+        table = self._table(name)
+        material = sha256(f"{table.grid}".encode() + table.fingerprint()).hexdigest()[:32]
+        arrays = cached(
+            self._cache,
+            f"picture-{self._scene}-{material}",
+            lambda: {"planes": np.moveaxis(self._renderer.picture(table), -1, 0)},
+        )
+        return np.ascontiguousarray(arrays["planes"])

@@ -1,0 +1,49 @@
+"""Where the camera stands, and what part of its frame some points fill."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from .scenes import Camera
+
+
+class Window(NamedTuple):
+    """A rectangle of pixels."""
+
+    x: int
+    y: int
+    width: int
+    height: int
+
+
+def camera_to_world(camera: Camera) -> np.ndarray:
+    """Columns: the camera's left, up, forward (Mitsuba's x, y, z) and its place; shape (4, 4)."""
+    at = np.array(camera.at, float)
+    forward = np.array(camera.target, float) - at
+    forward /= np.linalg.norm(forward)
+    left = np.cross([0.0, 0.0, 1.0], forward)
+    left /= np.linalg.norm(left)
+    matrix = np.eye(4)
+    matrix[:3] = np.stack([left, np.cross(forward, left), forward, at], axis=-1)
+    return matrix
+
+
+def window(camera: Camera, size: tuple[int, int], points: np.ndarray, *, margin: int = 2) -> Window:
+    """The part of the frame that ``points``, shape (n, 3), fill, and ``margin`` pixels around; never empty."""
+    matrix = camera_to_world(camera)
+    left, up, forward = ((points - matrix[:3, 3]) @ matrix[:3, :3]).T
+    half = np.tan(np.radians(camera.fov_degrees) / 2)
+    pixels_per_unit = min(size) / 2 / half
+    if (forward <= 0).any():  # something is beside or behind the camera
+        return Window(0, 0, *size)
+    x = size[0] / 2 - pixels_per_unit * left / forward
+    y = size[1] / 2 - pixels_per_unit * up / forward
+    x0, x1 = _span(x, size[0], margin)
+    y0, y1 = _span(y, size[1], margin)
+    return Window(x0, y0, x1 - x0, y1 - y0)
+
+
+def _span(positions: np.ndarray, size: int, margin: int) -> tuple[int, int]:
+    low = int(np.clip(np.floor(positions.min()) - margin, 0, size - 1))
+    high = int(np.clip(np.ceil(positions.max()) + margin, low + 1, size))
+    return low, high

@@ -1,0 +1,54 @@
+"""What goes into a camera and what comes out: samples, seeds and passes; layers of a picture."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from math import ceil, isqrt
+from typing import NamedTuple
+
+import numpy as np
+
+PASS_SAMPLES = 2**25
+"""The most samples that are under way at once: their random numbers take some 16 bytes each."""
+
+
+class Passes(NamedTuple):
+    """A picture is the mean of as many passes as there are seeds."""
+
+    spp: int
+    seeds: list[int]
+
+
+def no_progress(done: int, total: int) -> None:
+    """Say nothing."""
+
+
+@dataclass(frozen=True)
+class Exposure:
+    """Samples per pixel, their seed, and whether the denoiser's guides are wanted."""
+
+    spp: int
+    seed: int
+    guides: bool = False
+    progress: Callable[[int, int], None] = no_progress
+    """Called with the passes done and their number."""
+
+    def passes(self, n_pixels: int) -> Passes:
+        """Passes of equal size, rounded up to the grid of samples that Mitsuba's multijitter draws from."""
+        n = ceil(self.spp * n_pixels / PASS_SAMPLES)
+        each = ceil(self.spp / n)
+        side = isqrt(each)
+        # A step of the golden ratio keeps the seeds of the passes of different pictures apart.
+        seeds = [(self.seed + i * 0x9E3779B9) % 2**32 for i in range(n)]
+        return Passes(side * ceil(each / side), seeds)
+
+
+class Layer(NamedTuple):
+    """What the camera sees of some objects; everything is multiplied by ``alpha``, so layers add up."""
+
+    radiance: np.ndarray  # (height, width, 3), linear RGB
+    alpha: np.ndarray  # (height, width, 1), 1 where an object covers the pixel
+    albedo: np.ndarray  # (height, width, 3), a guide for the denoiser
+    normal: np.ndarray  # (height, width, 3), the same
+
+    def __add__(self, other: "Layer") -> "Layer":  # pyright: ignore[reportIncompatibleMethodOverride]
+        return Layer(*(a + b for a, b in zip(self, other, strict=True)))
