@@ -21,7 +21,11 @@ export function el<K extends keyof HTMLElementTagNameMap>(
   for (const [key, listener] of Object.entries(listeners)) {
     element.addEventListener(key.slice(2), listener as EventListener);
   }
-  element.append(...children.filter((child): child is Node | string => child !== null && child !== undefined && child !== false));
+  element.append(
+    ...children.filter(
+      (child): child is Node | string => child !== null && child !== undefined && child !== false,
+    ),
+  );
   return element;
 }
 
@@ -71,7 +75,10 @@ export function segments<T extends string>(
 }
 
 /** Call `draw` with the size in device pixels now and whenever the element changes it. */
-export function onResize(element: HTMLElement, draw: (width: number, height: number, ratio: number) => void): void {
+export function onResize(
+  element: HTMLElement,
+  draw: (width: number, height: number, ratio: number) => void,
+): void {
   new ResizeObserver(() => {
     const ratio = Math.min(window.devicePixelRatio || 1, 2);
     const { clientWidth, clientHeight } = element;

@@ -13,7 +13,8 @@ export function listenToKeys({ store, actions }: Context): void {
     else if (command || event.altKey) return;
     else if (event.key === "/") document.querySelector<HTMLInputElement>("#search")?.focus();
     else if (event.key === " " && !target.matches("button")) store.set({ playing: !store.get().playing });
-    else if (event.key === "ArrowRight" && !target.matches("input")) actions.setT(store.get().t + step(event));
+    else if (event.key === "ArrowRight" && !target.matches("input"))
+      actions.setT(store.get().t + step(event));
     else if (event.key === "ArrowLeft" && !target.matches("input")) actions.setT(store.get().t - step(event));
     else if (event.key === "Home" && !target.matches("input")) actions.setT(0);
     else if (event.key === "End" && !target.matches("input")) actions.setT(1);

@@ -1,18 +1,17 @@
 // The page: ask for the library, build the panels, fetch what the state needs.
 
 import * as api from "./api/client";
-import type { LibrarySummary } from "./api/schema";
+import type { Axis, LibrarySummary } from "./api/schema";
 import { isDrawable } from "./brdf/grid";
 import { el } from "./dom";
-import { head } from "./panels/head";
+import { listenToKeys } from "./keys";
 import { brdfPanel } from "./panels/brdfPanel";
+import { head } from "./panels/head";
 import { materialView } from "./panels/materialView";
 import { recipePanel } from "./panels/recipePanel";
 import { routePanel } from "./panels/routePanel";
 import { spaceView } from "./panels/spaceView";
-import { listenToKeys } from "./keys";
 import { fromHash, toHash } from "./permalink";
-import type { Axis } from "./api/schema";
 import { Tables } from "./render/tables";
 import { Actions, createState, type State, type Theme } from "./state";
 import type { Store } from "./store";
@@ -31,24 +30,40 @@ const THEME = "halfway-theme";
 async function start(): Promise<void> {
   const app = document.querySelector<HTMLElement>("#app")!;
   try {
-    const [library, thumbnails, environment] = await Promise.all([api.library(), api.thumbnails(), api.environment()]);
+    const [library, thumbnails, environment] = await Promise.all([
+      api.library(),
+      api.thumbnails(),
+      api.environment(),
+    ]);
     show(app, library, thumbnails, environment);
   } catch (error) {
-    app.replaceChildren(el("p.waiting.failed", { role: "alert" }, {}, error instanceof Error ? error.message : String(error)));
+    app.replaceChildren(
+      el("p.waiting.failed", { role: "alert" }, {}, error instanceof Error ? error.message : String(error)),
+    );
     if (!(error instanceof api.Problem)) throw error;
   }
 }
 
-function show(app: HTMLElement, library: LibrarySummary, thumbnails: api.Block, environment: api.Block): void {
+function show(
+  app: HTMLElement,
+  library: LibrarySummary,
+  thumbnails: api.Block,
+  environment: api.Block,
+): void {
   if (!isDrawable(library.grid)) {
-    throw new api.Problem(`${library.name} has a grid over ${library.grid.map(({ angle }) => angle).join(", ")}: the explorer draws theta_h, theta_d, phi_d.`);
+    throw new api.Problem(
+      `${library.name} has a grid over ${library.grid.map(({ angle }) => angle).join(", ")}: the explorer draws theta_h, theta_d, phi_d.`,
+    );
   }
   const theme = (localStorage.getItem(THEME) ?? "auto") as Theme;
   const store = createState(library, fromHash(location.hash, library), theme);
   const context: Context = {
     store,
     actions: new Actions(store),
-    thumbnails: new Thumbnails(library.materials.map(({ name }) => name), thumbnails),
+    thumbnails: new Thumbnails(
+      library.materials.map(({ name }) => name),
+      thumbnails,
+    ),
     tables: new Tables(library.grid as unknown as readonly [Axis, Axis, Axis]),
     environment,
   };
@@ -97,7 +112,16 @@ function fetchSpaces({ store }: Context): void {
 function keepLink(store: Store<State>): void {
   let timer = 0;
   store.watch(
-    ({ space, pace, stops, t, shape, light, exposure, orbit }) => [space, pace, stops, t, shape, light, exposure, orbit],
+    ({ space, pace, stops, t, shape, light, exposure, orbit }) => [
+      space,
+      pace,
+      stops,
+      t,
+      shape,
+      light,
+      exposure,
+      orbit,
+    ],
     () => {
       clearTimeout(timer);
       timer = window.setTimeout(() => history.replaceState(null, "", toHash(store.get())), 150);
@@ -113,10 +137,13 @@ function applyTheme(store: Store<State>): void {
     document.dispatchEvent(new Event("themechange"));
   };
   system.addEventListener("change", apply);
-  store.watch(({ theme }) => theme, (theme) => {
-    localStorage.setItem(THEME, theme);
-    apply();
-  });
+  store.watch(
+    ({ theme }) => theme,
+    (theme) => {
+      localStorage.setItem(THEME, theme);
+      apply();
+    },
+  );
 }
 
 const SECONDS_A_ROUTE = 6;

@@ -23,7 +23,8 @@ export function toHash(linked: Linked): string {
 /** The fields that make sense for this library; the others are left out. */
 export function fromHash(hash: string, library: LibrarySummary): Partial<Linked> {
   const fields = new URLSearchParams(hash.replace(/^#/, ""));
-  const oneOf = <T extends string>(key: string, options: readonly T[]) => options.find((o) => o === fields.get(key));
+  const oneOf = <T extends string>(key: string, options: readonly T[]) =>
+    options.find((o) => o === fields.get(key));
   const number = (key: string, from: number, to: number) => {
     const value = Number.parseFloat(fields.get(key) ?? "");
     return Number.isFinite(value) ? Math.min(Math.max(value, from), to) : undefined;
@@ -34,7 +35,10 @@ export function fromHash(hash: string, library: LibrarySummary): Partial<Linked>
   const orbit = (fields.get("orbit") ?? "").split(",").map(Number.parseFloat);
   const [azimuth, elevation, zoom] = orbit;
   return defined({
-    space: oneOf("space", library.spaces.map(({ name }) => name)),
+    space: oneOf(
+      "space",
+      library.spaces.map(({ name }) => name),
+    ),
     pace: oneOf("pace", library.paces),
     stops: distinct.length >= 2 ? distinct : undefined,
     t: number("t", 0, 1),
@@ -51,7 +55,9 @@ export function fromHash(hash: string, library: LibrarySummary): Partial<Linked>
 type Optional<T> = { [K in keyof T]?: T[K] | undefined };
 
 function defined(fields: Optional<Linked>): Partial<Linked> {
-  return Object.fromEntries(Object.entries(fields).filter(([, value]) => value !== undefined)) as Partial<Linked>;
+  return Object.fromEntries(
+    Object.entries(fields).filter(([, value]) => value !== undefined),
+  ) as Partial<Linked>;
 }
 
 function short(x: number, digits: number): string {

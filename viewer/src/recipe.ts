@@ -34,7 +34,9 @@ export function pieceAt(knots: readonly number[], t: number): { piece: number; s
 /** The JSON document, as `halfway mix` reads it; one map of weights where the channels are the same. */
 export function toDocument(library: string, recipe: readonly Ingredient[]): RecipeDocument {
   const [r, g, b] = CHANNELS.map((_, c) =>
-    Object.fromEntries(recipe.filter(({ weight }) => weight[c]! > 0).map(({ name, weight }) => [name, weight[c]!])),
+    Object.fromEntries(
+      recipe.filter(({ weight }) => weight[c]! > 0).map(({ name, weight }) => [name, weight[c]!]),
+    ),
   );
   const same = recipe.every(({ weight: [x, y, z] }) => x === y && y === z);
   return { library, weights: same ? r! : { r: r!, g: g!, b: b! } };

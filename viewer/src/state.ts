@@ -120,13 +120,20 @@ export class Actions {
   undo = (): void => {
     const { past, future } = this.store.get();
     const place = past.at(-1);
-    if (place) this.store.set({ ...place, past: past.slice(0, -1), future: [this.place(), ...future], slot: place.stops.length - 1 });
+    if (place)
+      this.store.set({
+        ...place,
+        past: past.slice(0, -1),
+        future: [this.place(), ...future],
+        slot: place.stops.length - 1,
+      });
   };
 
   redo = (): void => {
     const { past, future } = this.store.get();
     const [place, ...rest] = future;
-    if (place) this.store.set({ ...place, past: [...past, this.place()], future: rest, slot: place.stops.length - 1 });
+    if (place)
+      this.store.set({ ...place, past: [...past, this.place()], future: rest, slot: place.stops.length - 1 });
   };
 
   private go(change: Partial<Place>): void {

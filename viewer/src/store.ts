@@ -32,6 +32,7 @@ export function createStore<T extends object>(initial: T): Store<T> {
 
 /** Equal, or arrays of equal things: a selector may give several parts at once. */
 function same(a: unknown, b: unknown): boolean {
-  if (Array.isArray(a) && Array.isArray(b)) return a.length === b.length && a.every((x, i) => Object.is(x, b[i]));
+  if (Array.isArray(a) && Array.isArray(b))
+    return a.length === b.length && a.every((x, i) => Object.is(x, b[i]));
   return Object.is(a, b);
 }

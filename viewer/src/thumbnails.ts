@@ -14,7 +14,13 @@ export class Thumbnails {
     this.size = size;
     const n = 4 * size * size;
     this.byName = new Map(
-      names.map((name, i) => [name, Float32Array.from(block.halfs.subarray(i * n, (i + 1) * n), (bits, j) => HALF[bits]! * (j % 4 === 3 ? 1 : block.scale[j % 4]!))]),
+      names.map((name, i) => [
+        name,
+        Float32Array.from(
+          block.halfs.subarray(i * n, (i + 1) * n),
+          (bits, j) => HALF[bits]! * (j % 4 === 3 ? 1 : block.scale[j % 4]!),
+        ),
+      ]),
     );
   }
 

@@ -4,12 +4,15 @@ The wheel carries the built page. A checkout builds it when it is absent or olde
 """
 
 import hashlib
+import sys
 from collections.abc import Mapping
 from dataclasses import dataclass
 from importlib.resources import files
 from importlib.resources.abc import Traversable
+from pathlib import Path
 
 from ..errors import HalfwayError
+from . import building
 
 TYPES = {
     ".css": "text/css; charset=utf-8",
@@ -45,13 +48,24 @@ class Page:
         HalfwayError
             When this installation has none.
         """
+        _refresh(Path(__file__).parents[3])
         root = files("halfway.server") / "page"
         if not (root / "index.html").is_file():
             raise HalfwayError(
-                "this installation of halfway has no explorer page: install a wheel, or in a checkout run "
-                "`npm ci` and `npm run build` in viewer/."
+                "this installation of halfway has no explorer page: install it again from a wheel."
             )
         return cls(dict(_walk(root, "")))
+
+
+def _refresh(root: Path) -> None:
+    """Build the page when this is a checkout whose page is absent or old."""
+    if not (root / "viewer" / "package.json").is_file() or building.is_current(root):
+        return
+    print("building the explorer's page (once)", file=sys.stderr, flush=True)
+    try:
+        building.build(root)
+    except RuntimeError as error:
+        raise HalfwayError(str(error)) from None
 
 
 def _walk(folder: Traversable, prefix: str) -> list[tuple[str, Asset]]:

@@ -12,7 +12,8 @@ export interface Block {
 
 export const library = (): Promise<LibrarySummary> => json("api/library");
 
-export const spaceView = (space: string): Promise<SpaceView> => json(`api/spaces/${encodeURIComponent(space)}`);
+export const spaceView = (space: string): Promise<SpaceView> =>
+  json(`api/spaces/${encodeURIComponent(space)}`);
 
 export function route(
   space: string,

@@ -30,7 +30,10 @@ export function lobe(table: Table): Lobe {
   const shape = means.map(
     (value, i) => (Math.max(0, value - floor) + FLOOR * (value + 1e-6)) * Math.cos(toAngle(axis, i + 0.5)),
   );
-  const mass = Float64Array.from(shape, (value, i) => value * solidAngle(toAngle(axis, i), toAngle(axis, i + 1)));
+  const mass = Float64Array.from(
+    shape,
+    (value, i) => value * solidAngle(toAngle(axis, i), toAngle(axis, i + 1)),
+  );
   const total = mass.reduce((a, b) => a + b, 0);
   return { mass: mass.map((m) => m / total), density: Float64Array.from(shape, (value) => value / total) };
 }

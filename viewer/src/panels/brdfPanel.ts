@@ -1,7 +1,7 @@
 // The BRDF itself: polar lobes for a light direction, or a slice of the table.
 
-import { evaluate, type Rgb, sample, type Table } from "../brdf/table";
 import type { Direction } from "../brdf/halfdiff";
+import { evaluate, type Rgb, sample, type Table } from "../brdf/table";
 import { toByte } from "../colour";
 import { el, onResize, segments, style } from "../dom";
 import type { Context } from "../main";
@@ -14,18 +14,29 @@ export function brdfPanel({ store, tables }: Context): HTMLElement {
   let degrees = 45;
   let phi = 90;
   const canvas = el("canvas", { role: "img", "aria-label": "The BRDF of the mixed material" });
-  const choice = segments<View>("BRDF view", [["lobes", "Lobes"], ["slice", "Slice"]], (next) => {
-    view = next;
-    update();
-  });
-  const name = el("span");
-  const input = el("input", { type: "range", min: 0, step: 1, "aria-label": "Angle" }, {
-    oninput: () => {
-      if (view === "lobes") degrees = Number(input.value);
-      else phi = Number(input.value);
+  const choice = segments<View>(
+    "BRDF view",
+    [
+      ["lobes", "Lobes"],
+      ["slice", "Slice"],
+    ],
+    (next) => {
+      view = next;
       update();
     },
-  });
+  );
+  const name = el("span");
+  const input = el(
+    "input",
+    { type: "range", min: 0, step: 1, "aria-label": "Angle" },
+    {
+      oninput: () => {
+        if (view === "lobes") degrees = Number(input.value);
+        else phi = Number(input.value);
+        update();
+      },
+    },
+  );
   const output = el("output");
   let scheduled = false;
   const update = () => {
@@ -104,17 +115,25 @@ function mixed(parts: readonly Part[], value: (table: Table) => Rgb | null): Rgb
 /** How far from the middle a value is drawn: its cube root, so that matte and highlight both show. */
 const radius = (value: number) => Math.cbrt(Math.max(value, 0));
 
-function drawLobes(context: CanvasRenderingContext2D, { width, height }: Size, parts: readonly Part[], thetaI: number): void {
+function drawLobes(
+  context: CanvasRenderingContext2D,
+  { width, height }: Size,
+  parts: readonly Part[],
+  thetaI: number,
+): void {
   const wi: Direction = [Math.sin(thetaI), 0, Math.cos(thetaI)];
   const angles = Array.from({ length: 359 }, (_, i) => ((i - 179) / 2) * (Math.PI / 180));
-  const lobes = angles.map((angle) => mixed(parts, (table) => evaluate(table, wi, [-Math.sin(angle), 0, Math.cos(angle)])));
+  const lobes = angles.map((angle) =>
+    mixed(parts, (table) => evaluate(table, wi, [-Math.sin(angle), 0, Math.cos(angle)])),
+  );
   const largest = Math.max(...lobes.flat(), 1e-6);
   const reach = Math.min(width / 2 - 14, height - 30);
   const scale = reach / radius(largest);
   const [x0, y0] = [width / 2, height - 18];
   drawRings(context, x0, y0, reach, scale, largest);
   const colours = ["--red", "--green", "--blue"].map(style);
-  context.globalCompositeOperation = document.documentElement.dataset.theme === "light" ? "multiply" : "screen";
+  context.globalCompositeOperation =
+    document.documentElement.dataset.theme === "light" ? "multiply" : "screen";
   for (let c = 0; c < 3; c++) {
     context.beginPath();
     lobes.forEach((rgb, i) => {
@@ -132,20 +151,34 @@ function drawLobes(context: CanvasRenderingContext2D, { width, height }: Size, p
   drawRay(context, x0, y0, reach, thetaI);
 }
 
-function drawRings(context: CanvasRenderingContext2D, x0: number, y0: number, reach: number, scale: number, largest: number): void {
+function drawRings(
+  context: CanvasRenderingContext2D,
+  x0: number,
+  y0: number,
+  reach: number,
+  scale: number,
+  largest: number,
+): void {
   context.strokeStyle = style("--line");
   context.fillStyle = style("--quiet");
   context.lineWidth = 1;
   context.font = "10.5px system-ui, sans-serif";
   context.textAlign = "center";
   const top = 10 ** Math.floor(Math.log10(largest));
+  let last = Number.POSITIVE_INFINITY;
   for (const value of [top, top / 10, top / 100]) {
     const r = scale * radius(value);
-    if (r > reach || r < 14) continue;
+    // Room for the numbers below the base line.
+    if (r > reach || r < 22 || last - r < 30) continue;
+    last = r;
     context.beginPath();
     context.arc(x0, y0, r, Math.PI, 2 * Math.PI);
     context.stroke();
-    context.fillText(value >= 0.001 && value < 10000 ? String(Number(value.toPrecision(1))) : value.toExponential(0), x0 - r, y0 + 13);
+    context.fillText(
+      value >= 0.001 && value < 10000 ? String(Number(value.toPrecision(1))) : value.toExponential(0),
+      x0 - r,
+      y0 + 13,
+    );
   }
   context.beginPath();
   context.moveTo(x0 - reach, y0);
@@ -157,7 +190,13 @@ function drawRings(context: CanvasRenderingContext2D, x0: number, y0: number, re
   context.fillText("1/sr, cube root", x0 + reach, y0 + 13);
 }
 
-function drawRay(context: CanvasRenderingContext2D, x0: number, y0: number, reach: number, theta: number): void {
+function drawRay(
+  context: CanvasRenderingContext2D,
+  x0: number,
+  y0: number,
+  reach: number,
+  theta: number,
+): void {
   const [x, y] = [x0 + reach * Math.sin(theta), y0 - reach * Math.cos(theta)];
   context.strokeStyle = context.fillStyle = style("--accent");
   context.setLineDash([3, 3]);
@@ -172,7 +211,12 @@ function drawRay(context: CanvasRenderingContext2D, x0: number, y0: number, reac
 }
 
 /** theta_d over theta_h at one phi_d: the picture of B. Burley, "Physically-Based Shading at Disney", 2012, section 3. */
-function drawSlice(context: CanvasRenderingContext2D, { width, height }: Size, parts: readonly Part[], phi: number): void {
+function drawSlice(
+  context: CanvasRenderingContext2D,
+  { width, height }: Size,
+  parts: readonly Part[],
+  phi: number,
+): void {
   const [axisH, axisD, axisP] = parts[0]![0].grid;
   const column = Math.min(axisP.size - 1, Math.floor((phi / 180) * axisP.size));
   const image = new ImageData(axisH.size, axisD.size);
@@ -181,7 +225,9 @@ function drawSlice(context: CanvasRenderingContext2D, { width, height }: Size, p
       const rgb = mixed(parts, (table) => sample(table, h, d, column));
       const at = 4 * ((axisD.size - 1 - d) * axisH.size + h);
       // White at 1/sr of a white matte surface, as in the published slices.
-      rgb.forEach((value, c) => { image.data[at + c] = toByte(Math.PI * value); });
+      rgb.forEach((value, c) => {
+        image.data[at + c] = toByte(Math.PI * value);
+      });
       image.data[at + 3] = 255;
     }
   }

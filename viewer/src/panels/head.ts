@@ -9,10 +9,13 @@ export function head(context: Context): HTMLElement {
   const { library } = store.get();
   const undo = iconButton("undo", "Undo (Ctrl+Z)", actions.undo);
   const redo = iconButton("redo", "Redo (Ctrl+Shift+Z)", actions.redo);
-  store.watch(({ past, future }) => [past, future] as const, ([past, future]) => {
-    undo.disabled = past.length === 0;
-    redo.disabled = future.length === 0;
-  });
+  store.watch(
+    ({ past, future }) => [past, future] as const,
+    ([past, future]) => {
+      undo.disabled = past.length === 0;
+      redo.disabled = future.length === 0;
+    },
+  );
   const about = `${library.name}: ${library.description}`;
   return el(
     "header.head",
@@ -21,9 +24,21 @@ export function head(context: Context): HTMLElement {
     el("h1.brand", {}, {}, el("i"), "halfway"),
     el("p.about", { title: `${about}\n${library.source}\n${library.licence}` }, {}, about),
     search(context),
-    choice(context, "space", "Space", library.spaces.map(({ name, text }) => [name, text] as const), actions.setSpace),
+    choice(
+      context,
+      "space",
+      "Space",
+      library.spaces.map(({ name, text }) => [name, text] as const),
+      actions.setSpace,
+    ),
     library.paces.length > 1 &&
-      choice(context, "pace", "Pace", library.paces.map((name) => [name, ""] as const), actions.setPace),
+      choice(
+        context,
+        "pace",
+        "Pace",
+        library.paces.map((name) => [name, ""] as const),
+        actions.setPace,
+      ),
     el("div.group", {}, {}, undo, redo, themeButton(context), linkButton()),
   );
 }
@@ -41,10 +56,13 @@ function choice(
     { onchange: () => choose(select.value) },
     ...options.map(([name, text]) => el("option", { value: name, title: text }, {}, name)),
   );
-  store.watch((state) => state[key], (name) => {
-    select.value = name;
-    select.title = options.find(([option]) => option === name)?.[1] ?? "";
-  });
+  store.watch(
+    (state) => state[key],
+    (name) => {
+      select.value = name;
+      select.title = options.find(([option]) => option === name)?.[1] ?? "";
+    },
+  );
   return el("label.choice", {}, {}, title, select);
 }
 
@@ -106,13 +124,27 @@ function search({ store, actions, thumbnails }: Context): HTMLElement {
     },
   );
   const update = () => {
-    const words = input.value.toLowerCase().split(/[\s-]+/).filter(Boolean);
+    const words = input.value
+      .toLowerCase()
+      .split(/[\s-]+/)
+      .filter(Boolean);
     matches = names.filter((name) => words.every((word) => name.toLowerCase().includes(word)));
     store.set({ found: words.length ? matches : null });
     list.hidden = words.length === 0;
     input.setAttribute("aria-expanded", String(!list.hidden));
     const items = matches.slice(0, 40).map((name) =>
-      el("li", { role: "option" }, { onpointerdown: (event) => { event.preventDefault(); choose(name); } }, thumbnails.canvas(name), name),
+      el(
+        "li",
+        { role: "option" },
+        {
+          onpointerdown: (event) => {
+            event.preventDefault();
+            choose(name);
+          },
+        },
+        thumbnails.canvas(name),
+        name,
+      ),
     );
     list.replaceChildren(...(items.length ? items : [el("li.none", {}, {}, "No material of this name")]));
     mark(0);

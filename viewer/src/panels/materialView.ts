@@ -10,15 +10,37 @@ import { nearestFirst } from "../wanted";
 
 export function materialView(context: Context): HTMLElement {
   const { store } = context;
-  const canvas = el("canvas.view", { id: "material", tabindex: 0, role: "img", "aria-label": "The material on an object; drag to turn it" });
+  const canvas = el("canvas.view", {
+    id: "material",
+    tabindex: 0,
+    role: "img",
+    "aria-label": "The material on an object; drag to turn it",
+  });
   const note = el("span.note", { "aria-live": "polite" });
   const progress = el("i");
   const home = iconButton("home", "Turn back to the front", () => store.set({ orbit: HOME }));
-  store.watch(({ orbit }) => orbit, (orbit) => {
-    home.hidden = orbit === HOME;
-  });
-  const shapes = segments<Shape>("Object", [["sphere", "Sphere"], ["teapot", "Teapot"]], (shape) => store.set({ shape, orbit: HOME }));
-  const lights = segments<Light>("Light", [["studio", "Studio"], ["points", "Three lights"]], (light) => store.set({ light }));
+  store.watch(
+    ({ orbit }) => orbit,
+    (orbit) => {
+      home.hidden = orbit === HOME;
+    },
+  );
+  const shapes = segments<Shape>(
+    "Object",
+    [
+      ["sphere", "Sphere"],
+      ["teapot", "Teapot"],
+    ],
+    (shape) => store.set({ shape, orbit: HOME }),
+  );
+  const lights = segments<Light>(
+    "Light",
+    [
+      ["studio", "Studio"],
+      ["points", "Three lights"],
+    ],
+    (light) => store.set({ light }),
+  );
   store.watch(({ shape }) => shape, shapes.mark);
   store.watch(({ light }) => light, lights.mark);
   const panel = el(
@@ -39,7 +61,13 @@ export function materialView(context: Context): HTMLElement {
   return panel;
 }
 
-function paint(context: Context, panel: HTMLElement, canvas: HTMLCanvasElement, note: HTMLElement, progress: HTMLElement): void {
+function paint(
+  context: Context,
+  panel: HTMLElement,
+  canvas: HTMLCanvasElement,
+  note: HTMLElement,
+  progress: HTMLElement,
+): void {
   const { store, tables } = context;
   const { library } = store.get();
   const painter = new Painter(canvas, tables, library.lights, toEnvironment(context.environment));
@@ -88,15 +116,24 @@ function paint(context: Context, panel: HTMLElement, canvas: HTMLCanvasElement, 
     fit();
     loop.run();
   });
-  store.watch(({ shape, orbit, light }) => [shape, orbit, light] as const, ([shape, orbit, light]) => {
-    painter.look(shape, orbit, light);
-    loop.run();
-  });
-  store.watch(({ recipe, exposure }) => [recipe, exposure], () => loop.run());
-  store.watch(({ route, recipe }) => [route, recipe], () => {
-    const { route, t, recipe } = store.get();
-    if (route) tables.want([...new Set([...recipe.map(({ name }) => name), ...nearestFirst(route, t)])]);
-  });
+  store.watch(
+    ({ shape, orbit, light }) => [shape, orbit, light] as const,
+    ([shape, orbit, light]) => {
+      painter.look(shape, orbit, light);
+      loop.run();
+    },
+  );
+  store.watch(
+    ({ recipe, exposure }) => [recipe, exposure],
+    () => loop.run(),
+  );
+  store.watch(
+    ({ route, recipe }) => [route, recipe],
+    () => {
+      const { route, t, recipe } = store.get();
+      if (route) tables.want([...new Set([...recipe.map(({ name }) => name), ...nearestFirst(route, t)])]);
+    },
+  );
   tables.onChange = (problem) => {
     if (problem) store.set({ problem });
     document.dispatchEvent(new Event("tablechange"));
@@ -152,41 +189,67 @@ function orbitOnDrag({ store }: Context, canvas: HTMLCanvasElement): void {
     turn(-(event.clientX - from.x) * 0.008, (event.clientY - from.y) * 0.008);
     from = { x: event.clientX, y: event.clientY };
   });
-  for (const end of ["pointerup", "pointercancel"]) canvas.addEventListener(end, () => { from = null; });
+  for (const end of ["pointerup", "pointercancel"])
+    canvas.addEventListener(end, () => {
+      from = null;
+    });
   const turn = (azimuth: number, elevation: number) => {
     const { orbit } = store.get();
     store.set({
-      orbit: { ...orbit, azimuth: orbit.azimuth + azimuth, elevation: Math.min(Math.max(orbit.elevation + elevation, -1.4), 1.4) },
+      orbit: {
+        ...orbit,
+        azimuth: orbit.azimuth + azimuth,
+        elevation: Math.min(Math.max(orbit.elevation + elevation, -1.4), 1.4),
+      },
     });
   };
-  canvas.addEventListener("wheel", (event) => {
-    event.preventDefault();
-    const { orbit } = store.get();
-    store.set({ orbit: { ...orbit, zoom: Math.min(Math.max(orbit.zoom * Math.exp(-event.deltaY * 0.001), 0.4), 4) } });
-  }, { passive: false });
+  canvas.addEventListener(
+    "wheel",
+    (event) => {
+      event.preventDefault();
+      const { orbit } = store.get();
+      store.set({
+        orbit: { ...orbit, zoom: Math.min(Math.max(orbit.zoom * Math.exp(-event.deltaY * 0.001), 0.4), 4) },
+      });
+    },
+    { passive: false },
+  );
 }
 
 function exposure({ store }: Context): HTMLElement {
   const [min, max] = EXPOSURES;
-  const input = el("input", { type: "range", min, max, step: 0.1, "aria-label": "Exposure in stops" }, {
-    oninput: () => store.set({ exposure: Number(input.value) }),
-    ondblclick: () => store.set({ exposure: 0 }),
-  });
+  const input = el(
+    "input",
+    { type: "range", min, max, step: 0.1, "aria-label": "Exposure in stops" },
+    {
+      oninput: () => store.set({ exposure: Number(input.value) }),
+      ondblclick: () => store.set({ exposure: 0 }),
+    },
+  );
   const output = el("output");
-  store.watch(({ exposure }) => exposure, (value) => {
-    input.value = String(value);
-    output.textContent = `${value > 0 ? "+" : value < 0 ? "−" : ""}${Math.abs(value).toFixed(1)} EV`;
-  });
+  store.watch(
+    ({ exposure }) => exposure,
+    (value) => {
+      input.value = String(value);
+      output.textContent = `${value > 0 ? "+" : value < 0 ? "−" : ""}${Math.abs(value).toFixed(1)} EV`;
+    },
+  );
   return el("label.exposure", { title: "Exposure (double click: 0)" }, {}, input, output);
 }
 
 /** Without WebGL2: the small pictures, mixed on the processor. */
 function stillPictures({ store, thumbnails }: Context, panel: HTMLElement, reason: string): void {
   const canvas = el("canvas.view.still", { width: thumbnails.size, height: thumbnails.size });
-  panel.prepend(canvas, el("p.reason", { role: "status" }, {}, `A small picture stands in for the live one. ${reason}`));
+  panel.prepend(
+    canvas,
+    el("p.reason", { role: "status" }, {}, `A small picture stands in for the live one. ${reason}`),
+  );
   panel.querySelector(".overlay.bottom")?.remove();
-  store.watch(({ recipe }) => recipe, (recipe) => {
-    canvas.getContext("2d")!.putImageData(thumbnails.picture(recipe), 0, 0);
-    panel.dataset.ready = "still";
-  });
+  store.watch(
+    ({ recipe }) => recipe,
+    (recipe) => {
+      canvas.getContext("2d")!.putImageData(thumbnails.picture(recipe), 0, 0);
+      panel.dataset.ready = "still";
+    },
+  );
 }

@@ -7,12 +7,20 @@ import { recipeAt } from "../recipe";
 export function routePanel(context: Context): HTMLElement {
   const { store } = context;
   const problem = el("p.problem", { role: "alert" });
-  store.watch((state) => state.problem, (text) => {
-    problem.textContent = text;
-    problem.hidden = text === null;
-  });
+  store.watch(
+    (state) => state.problem,
+    (text) => {
+      problem.textContent = text;
+      problem.hidden = text === null;
+    },
+  );
   const value = el("b");
-  store.watch(({ t }) => t, (t) => { value.textContent = t.toFixed(3); });
+  store.watch(
+    ({ t }) => t,
+    (t) => {
+      value.textContent = t.toFixed(3);
+    },
+  );
   return el(
     "section.panel.route",
     { "aria-label": "Route" },
@@ -25,25 +33,59 @@ export function routePanel(context: Context): HTMLElement {
 
 function playButton({ store }: Context): HTMLElement {
   const button = iconButton("play", "Play (space)", () => store.set({ playing: !store.get().playing }));
-  store.watch(({ playing }) => playing, (playing) => {
-    button.replaceChildren(icon(playing ? "pause" : "play"));
-    button.setAttribute("aria-pressed", String(playing));
-  });
+  store.watch(
+    ({ playing }) => playing,
+    (playing) => {
+      button.replaceChildren(icon(playing ? "pause" : "play"));
+      button.setAttribute("aria-pressed", String(playing));
+    },
+  );
   return button;
 }
 
 function stops(context: Context): HTMLElement {
   const { store, actions } = context;
   const list = el("ol.stops");
-  store.watch(({ stops, slot }) => [stops, slot] as const, ([stops, slot]) => {
-    list.replaceChildren(
-      ...stops.map((name, i) => el("li", {}, {}, i > 0 && el("span.arrow", { "aria-hidden": "true" }, {}, "→"), chip(context, name, i))),
-      slot === stops.length
-        ? el("li", {}, {}, el("span.arrow", {}, {}, "→"), el("span.chip.empty", { "data-selected": "true" }, {},
-            el("button", { type: "button" }, { onclick: () => actions.selectSlot(stops.length - 1) }, "choose a material in the space or the search")))
-        : el("li", {}, {}, iconButton("plus", "Add a stop", () => actions.selectSlot(stops.length))),
-    );
-  });
+  store.watch(
+    ({ stops, slot }) => [stops, slot] as const,
+    ([stops, slot]) => {
+      list.replaceChildren(
+        ...stops.map((name, i) =>
+          el(
+            "li",
+            {},
+            {},
+            i > 0 && el("span.arrow", { "aria-hidden": "true" }, {}, "→"),
+            chip(context, name, i),
+          ),
+        ),
+        slot === stops.length
+          ? el(
+              "li",
+              {},
+              {},
+              el("span.arrow", {}, {}, "→"),
+              el(
+                "span.chip.empty",
+                { "data-selected": "true" },
+                {},
+                el(
+                  "button",
+                  { type: "button" },
+                  { onclick: () => actions.selectSlot(stops.length - 1) },
+                  "choose a material in the space or the search",
+                ),
+              ),
+            )
+          : el(
+              "li",
+              {},
+              {},
+              iconButton("plus", "Add a stop", () => actions.selectSlot(stops.length)),
+            ),
+      );
+    },
+  );
   return list;
 }
 
@@ -52,7 +94,11 @@ function chip({ store, actions, thumbnails }: Context, name: string, i: number):
   const remove = stops.length > 2 && iconButton("close", `Remove ${name}`, () => actions.removeStop(i));
   const select = el(
     "button",
-    { type: "button", title: "The next material you choose goes here. Drag, or Alt and an arrow, moves it", "aria-pressed": i === slot ? "true" : "false" },
+    {
+      type: "button",
+      title: "The next material you choose goes here. Drag, or Alt and an arrow, moves it",
+      "aria-pressed": i === slot ? "true" : "false",
+    },
     {
       onclick: () => actions.selectSlot(i),
       onkeydown: (event) => {
@@ -72,7 +118,9 @@ function chip({ store, actions, thumbnails }: Context, name: string, i: number):
         event.dataTransfer?.setData("text/x-halfway-stop", String(i));
         element.dataset.dragged = "true";
       },
-      ondragend: () => { element.dataset.dragged = "false"; },
+      ondragend: () => {
+        element.dataset.dragged = "false";
+      },
       ondragover: (event) => event.preventDefault(),
       ondrop: (event) => {
         const from = Number.parseInt(event.dataTransfer?.getData("text/x-halfway-stop") ?? "", 10);
@@ -94,14 +142,22 @@ function strip({ store, actions, thumbnails }: Context): HTMLElement {
   const input = el(
     "input",
     { id: "t", type: "range", min: 0, max: 1, step: 0.001, "aria-label": "Position t on the route" },
-    { oninput: () => { store.set({ playing: false }); actions.setT(Number(input.value)); } },
+    {
+      oninput: () => {
+        store.set({ playing: false });
+        actions.setT(Number(input.value));
+      },
+    },
   );
   const element = el("div.strip", {}, {}, canvas, input, head);
-  store.watch(({ t }) => t, (t) => {
-    input.value = String(t);
-    // The middle of a range input's thumb stays half a thumb away from the ends.
-    head.style.left = `calc(var(--side) / 2 + ${t} * (100% - var(--side)))`;
-  });
+  store.watch(
+    ({ t }) => t,
+    (t) => {
+      input.value = String(t);
+      // The middle of a range input's thumb stays half a thumb away from the ends.
+      head.style.left = `calc(var(--side) / 2 + ${t} * (100% - var(--side)))`;
+    },
+  );
   const context = canvas.getContext("2d")!;
   const cell = document.createElement("canvas");
   cell.width = cell.height = thumbnails.size;

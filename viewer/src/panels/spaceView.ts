@@ -13,13 +13,22 @@ export function spaceView(context: Context): HTMLElement {
   const { store, actions, thumbnails } = context;
   const names = store.get().library.materials.map(({ name }) => name);
   const indices = new Map(names.map((name, i) => [name, i]));
-  const canvas = el("canvas.view", { id: "space-view", tabindex: 0, role: "img", "aria-label": "The materials as points; the search reaches them all" });
+  const canvas = el("canvas.view", {
+    id: "space-view",
+    tabindex: 0,
+    role: "img",
+    "aria-label": "The materials as points; the search reaches them all",
+  });
   const labels = el("div.labels", { "aria-hidden": "true" });
   const note = el("span.note");
-  const channels = segments<string>("Channel", CHANNELS.map((channel) => [channel, channel.toUpperCase()] as const), (channel) => {
-    shown = channel;
-    embed();
-  });
+  const channels = segments<string>(
+    "Channel",
+    CHANNELS.map((channel) => [channel, channel.toUpperCase()] as const),
+    (channel) => {
+      shown = channel;
+      embed();
+    },
+  );
   const panel = el(
     "section.panel.space",
     { "aria-label": "Space" },
@@ -35,7 +44,9 @@ export function spaceView(context: Context): HTMLElement {
     cloud = new Cloud(canvas, names, thumbnails, () => draw());
   } catch {
     canvas.hidden = true;
-    panel.append(el("p.reason", { role: "status" }, {}, "This view needs WebGL2. The search finds every material."));
+    panel.append(
+      el("p.reason", { role: "status" }, {}, "This view needs WebGL2. The search finds every material."),
+    );
     return panel;
   }
 
@@ -45,7 +56,10 @@ export function spaceView(context: Context): HTMLElement {
   };
   const weightsOf = (recipe: readonly Ingredient[]) => {
     const channel = CHANNELS.indexOf(embedding()?.channel as "r");
-    return recipe.map(({ name, weight: [r, g, b] }) => [indices.get(name)!, channel < 0 ? (r + g + b) / 3 : [r, g, b][channel]!] as const);
+    return recipe.map(
+      ({ name, weight: [r, g, b] }) =>
+        [indices.get(name)!, channel < 0 ? (r + g + b) / 3 : [r, g, b][channel]!] as const,
+    );
   };
   const embed = () => {
     const current = embedding();
@@ -53,7 +67,7 @@ export function spaceView(context: Context): HTMLElement {
     const single = store.get().view!.embeddings.length === 1;
     channels.element.hidden = single;
     channels.mark(current.channel);
-    note.textContent = `${current.axes.join(", ")}, on rank scales`;
+    note.textContent = `${current.axes.join(", ")}, on quantile scales`;
     cloud.embed(current);
     traceRoute();
     place();
@@ -62,7 +76,9 @@ export function spaceView(context: Context): HTMLElement {
     const { route } = store.get();
     if (route === null || cloud.display === null) return;
     const display = cloud.display;
-    const ts = [...new Set([...route.knots, ...Array.from({ length: ROUTE_POINTS + 1 }, (_, i) => i / ROUTE_POINTS)])].sort((a, b) => a - b);
+    const ts = [
+      ...new Set([...route.knots, ...Array.from({ length: ROUTE_POINTS + 1 }, (_, i) => i / ROUTE_POINTS)]),
+    ].sort((a, b) => a - b);
     cloud.setRoute(ts.map((t) => display.mix(weightsOf(recipeAt(route, t)))));
     draw();
   };
@@ -76,10 +92,12 @@ export function spaceView(context: Context): HTMLElement {
     const { stops, hovered, found } = store.get();
     const stopped = new Set(stops);
     const hits = found && new Set(found);
-    cloud.setLooks(names.map((name) => ({
-      ring: name === hovered ? "hovered" : stopped.has(name) ? "stop" : "none",
-      dim: hits !== null && !hits.has(name),
-    })));
+    cloud.setLooks(
+      names.map((name) => ({
+        ring: name === hovered ? "hovered" : stopped.has(name) ? "stop" : "none",
+        dim: hits !== null && !hits.has(name),
+      })),
+    );
     draw();
   };
   const paint = () => {

@@ -16,7 +16,7 @@ import {
   Scene,
   UnsignedByteType,
   Vector2,
-  Vector3,
+  type Vector3,
   WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
@@ -45,13 +45,27 @@ export class Cloud {
   private readonly renderer: WebGLRenderer;
   private readonly scene = new Scene();
   private readonly points: Points<BufferGeometry, RawShaderMaterial>;
-  private readonly edges = new LineSegments(new BufferGeometry(), new LineBasicMaterial({ transparent: true, opacity: 0.13, depthWrite: false }));
-  private readonly simplex = new LineSegments(new BufferGeometry(), new LineBasicMaterial({ transparent: true, opacity: 0.8, depthWrite: false }));
-  private readonly route = new Line2(new LineGeometry(), new LineMaterial({ linewidth: 2.5, worldUnits: false, depthTest: true }));
+  private readonly edges = new LineSegments(
+    new BufferGeometry(),
+    new LineBasicMaterial({ transparent: true, opacity: 0.13, depthWrite: false }),
+  );
+  private readonly simplex = new LineSegments(
+    new BufferGeometry(),
+    new LineBasicMaterial({ transparent: true, opacity: 0.8, depthWrite: false }),
+  );
+  private readonly route = new Line2(
+    new LineGeometry(),
+    new LineMaterial({ linewidth: 2.5, worldUnits: false, depthTest: true }),
+  );
   private readonly size = new Vector2(1, 1);
   private ratio = 1;
 
-  constructor(canvas: HTMLCanvasElement, names: readonly string[], thumbnails: Thumbnails, onMove: () => void) {
+  constructor(
+    canvas: HTMLCanvasElement,
+    names: readonly string[],
+    thumbnails: Thumbnails,
+    onMove: () => void,
+  ) {
     this.renderer = new WebGLRenderer({ canvas, alpha: true, antialias: true });
     this.camera.up.set(0, 0, 1);
     this.camera.position.set(2.4, -4.6, 1.9);
@@ -78,7 +92,13 @@ export class Cloud {
         },
       }),
     );
-    this.points.geometry.setAttribute("tile", new BufferAttribute(Float32Array.from(names, (_, i) => i), 1));
+    this.points.geometry.setAttribute(
+      "tile",
+      new BufferAttribute(
+        Float32Array.from(names, (_, i) => i),
+        1,
+      ),
+    );
     this.points.geometry.setAttribute("look", new BufferAttribute(new Float32Array(2 * names.length), 2));
     for (const object of [this.points, this.edges, this.simplex, this.route]) object.frustumCulled = false;
     this.edges.renderOrder = -2;
@@ -92,7 +112,9 @@ export class Cloud {
     const positions = this.display.points.flatMap((p) => p.toArray());
     this.points.geometry.setAttribute("position", new BufferAttribute(new Float32Array(positions), 3));
     this.edges.geometry.dispose();
-    this.edges.geometry = segments(embedding.edges.map(([a, b]) => [this.display!.points[a]!, this.display!.points[b]!] as const));
+    this.edges.geometry = segments(
+      embedding.edges.map(([a, b]) => [this.display!.points[a]!, this.display!.points[b]!] as const),
+    );
   }
 
   setSimplex(corners: readonly Vector3[]): void {
@@ -122,7 +144,11 @@ export class Cloud {
     this.simplex.material.color.set(text);
     this.route.material.color.set(accent);
     const { uStop, uHovered, uGround } = this.points.material.uniforms;
-    for (const [uniform, css] of [[uStop, accent], [uHovered, text], [uGround, ground]] as const) {
+    for (const [uniform, css] of [
+      [uStop, accent],
+      [uHovered, text],
+      [uGround, ground],
+    ] as const) {
       // The shader writes to the screen as it is: no conversion to linear light.
       (uniform!.value as Color).setStyle(css, "srgb-linear" as never);
     }
@@ -136,9 +162,13 @@ export class Cloud {
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
     // A narrow panel looks from further away, so that the cloud stays in it.
-    this.camera.fov = width < height ? 2 * Math.atan((Math.tan((16 * Math.PI) / 180) * height) / width) * (180 / Math.PI) : 32;
+    this.camera.fov =
+      width < height
+        ? 2 * Math.atan((Math.tan((16 * Math.PI) / 180) * height) / width) * (180 / Math.PI)
+        : 32;
     this.camera.updateProjectionMatrix();
-    this.points.material.uniforms.uPixels!.value = PIXELS * ratio * Math.min(1.5, Math.max(0.75, Math.min(width, height) / ratio / 480));
+    this.points.material.uniforms.uPixels!.value =
+      PIXELS * ratio * Math.min(1.5, Math.max(0.75, Math.min(width, height) / ratio / 480));
     this.route.material.linewidth = 2.5 * ratio;
     this.route.material.resolution.copy(this.size);
   }
@@ -151,7 +181,11 @@ export class Cloud {
   project(point: Vector3): { x: number; y: number; depth: number } {
     const p = point.clone().project(this.camera);
     const { x: width, y: height } = this.size;
-    return { x: ((p.x + 1) / 2) * (width / this.ratio), y: ((1 - p.y) / 2) * (height / this.ratio), depth: p.z };
+    return {
+      x: ((p.x + 1) / 2) * (width / this.ratio),
+      y: ((1 - p.y) / 2) * (height / this.ratio),
+      depth: p.z,
+    };
   }
 
   /** The material at a place of the panel, in CSS pixels; null beside all of them. */

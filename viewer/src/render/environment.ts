@@ -41,7 +41,9 @@ export function light(halfs: Uint16Array, width: number, height: number): Float6
     }
   }
   const floor = (FLOOR * sums.reduce((a, b) => a + b, 0)) / sums.length;
-  const mass = sums.map((sum, i) => (sum + floor) * Math.sin((Math.PI * (Math.floor(i / columns) + 0.5)) / rows));
+  const mass = sums.map(
+    (sum, i) => (sum + floor) * Math.sin((Math.PI * (Math.floor(i / columns) + 0.5)) / rows),
+  );
   const total = mass.reduce((a, b) => a + b, 0);
   return mass.map((m) => m / total);
 }

@@ -5,8 +5,8 @@
 // layers: moving t is one pass of dot products, without noise starting over.
 
 import {
-  CustomBlending,
   ConstantAlphaFactor,
+  CustomBlending,
   FloatType,
   NearestFilter,
   NoBlending,
@@ -59,8 +59,13 @@ export class Painter {
   ) {
     this.renderer = new WebGLRenderer({ canvas, alpha: true, antialias: false, preserveDrawingBuffer: true });
     this.renderer.autoClear = false;
-    if (!this.renderer.extensions.has("EXT_color_buffer_float") || !this.renderer.extensions.has("EXT_float_blend")) {
-      throw new Error("This browser cannot draw into float textures (EXT_color_buffer_float, EXT_float_blend).");
+    if (
+      !this.renderer.extensions.has("EXT_color_buffer_float") ||
+      !this.renderer.extensions.has("EXT_float_blend")
+    ) {
+      throw new Error(
+        "This browser cannot draw into float textures (EXT_color_buffer_float, EXT_float_blend).",
+      );
     }
     const shared = () => ({
       uTable: { value: null },
@@ -114,7 +119,10 @@ export class Painter {
     this.renderer.setSize(width, height, false);
     this.stage.resize(width, height);
     this.target?.dispose();
-    const nLayers = Math.min(MAX_TERMS, Math.max(MIN_LAYERS, Math.floor(LAYER_BYTES / (16 * width * height))));
+    const nLayers = Math.min(
+      MAX_TERMS,
+      Math.max(MIN_LAYERS, Math.floor(LAYER_BYTES / (16 * width * height))),
+    );
     this.target = new WebGLArrayRenderTarget(width, height, nLayers, {
       type: FloatType,
       format: RGBAFormat,
@@ -186,7 +194,10 @@ export class Painter {
     return ready;
   }
 
-  private neediest(names: readonly string[], target: number): { layer: Layer; table: TableOnCard } | undefined {
+  private neediest(
+    names: readonly string[],
+    target: number,
+  ): { layer: Layer; table: TableOnCard } | undefined {
     let best: { layer: Layer; table: TableOnCard } | undefined;
     for (const name of names) {
       const table = this.tables.get(name);

