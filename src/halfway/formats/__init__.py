@@ -5,6 +5,7 @@ from .merl import MerlFile, encode_header, read_merl, write_merl, write_samples
 from .nbrdf import NeuralBrdf, read_nbrdf
 from .rgl import RglBrdf
 from .rgl_reader import read_rgl
+from .rgl_writer import write_rgl
 from .write import write_brdf
 
 __all__ = [
@@ -23,5 +24,6 @@ __all__ = [
     "read_rgl",
     "write_brdf",
     "write_merl",
+    "write_rgl",
     "write_samples",
 ]

@@ -21,11 +21,11 @@ import hashlib
 import math
 import warnings
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, reduce
 
 import numpy as np
 
-from .._types import Angle, Directions, Table, Values
+from .._types import Directions, Table, Values
 from ..brdf import Brdf
 from ..halfdiff import MERL, Grid, HalfDiff, from_half_diff
 from .rgl_warp import Interpolant, Warp, slices
@@ -90,21 +90,22 @@ class RglBrdf(Brdf):
         reciprocal, clamped at 0, and for an anisotropic material the mean over phi_h, with a warning that says how much
         it varies.
         """
+        brdf = self if self.is_isotropic else self.turned_mean()
         mask = grid.mask()[rows]
-        if not self.is_isotropic:
-            warnings.warn(
-                f"{self.name} is anisotropic: its values vary by {self.anisotropy:.0%} as it turns about its normal. "
-                f"The table holds the mean over {len(_TURNS)} turns.",
-                stacklevel=2,
-            )
-        values = np.zeros((int(mask.sum()), 3))
         wi, wo = (directions[rows][mask] for directions in grid.directions())
-        turns = _TURNS[:1] if self.is_isotropic else _TURNS
-        for turn in turns:
-            values += self._reciprocal(_turned(wi, turn), _turned(wo, turn)) / len(turns)
+        values = (brdf.eval(wi, wo) + brdf.eval(wo, wi)) / 2
         result = np.full((3, *mask.shape), np.nan, np.float32)
         result[:, mask] = np.maximum(values, 0).T
         return result
+
+    def turned_mean(self) -> Brdf:
+        """The mean over turns of the surface about its normal, with a warning that says how much they differ."""
+        warnings.warn(
+            f"{self.name} is anisotropic: its values vary by {self.anisotropy:.0%} as it turns about its normal. "
+            f"The mean over {len(_TURNS)} turns stands for it.",
+            stacklevel=3,
+        )
+        return _TurnedMean(self)
 
     @cached_property
     def anisotropy(self) -> float:
@@ -112,14 +113,8 @@ class RglBrdf(Brdf):
         if self.is_isotropic:
             return 0.0
         i, o = from_half_diff(_spread())
-        lit = (i[:, 2] > 0) & (o[:, 2] > 0)
-        values = np.stack(
-            [self._reciprocal(_turned(i[lit], a), _turned(o[lit], a)) for a in _TURNS]
-        )
+        values = np.stack([self.eval(_turned(i, angle), _turned(o, angle)) for angle in _TURNS])
         return float(values.std(axis=0).sum() / np.abs(values.mean(axis=0)).sum())
-
-    def _reciprocal(self, wi: Directions, wo: Directions) -> np.ndarray:
-        return (self._in_blocks(wo, wi) + self._in_blocks(wi, wo)) / 2
 
     def _in_blocks(self, i: Directions, o: Directions) -> np.ndarray:
         """f_r of pairs above the horizon, shape (n, 3)."""
@@ -173,14 +168,28 @@ def _turned(v: Directions, angle: float) -> Directions:
     return v @ np.array([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]])
 
 
-def _polar(v: Directions) -> tuple[Angle, Angle]:
+@dataclass(frozen=True, eq=False)
+class _TurnedMean(Brdf):
+    """The mean of a material over turns about its normal."""
+
+    material: RglBrdf
+
+    def eval(self, wi: Directions, wo: Directions) -> Values:
+        turned = (self.material.eval(_turned(wi, angle), _turned(wo, angle)) for angle in _TURNS)
+        return reduce(np.add, turned) / len(_TURNS)
+
+    def fingerprint(self) -> bytes:
+        return b"turned mean of " + self.material.fingerprint()
+
+
+def _polar(v: Directions) -> tuple[np.ndarray, np.ndarray]:
     x, y, z = np.moveaxis(v, -1, 0)
     return np.arctan2(np.hypot(x, y), z), np.arctan2(y, x)
 
 
-def _u_theta(theta: Angle) -> np.ndarray:
+def _u_theta(theta: np.ndarray) -> np.ndarray:
     return np.sqrt(theta * (2 / np.pi))
 
 
-def _u_phi(phi: Angle) -> np.ndarray:
+def _u_phi(phi: np.ndarray) -> np.ndarray:
     return (phi + np.pi) / (2 * np.pi) % 1

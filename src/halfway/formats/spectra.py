@@ -1,4 +1,4 @@
-"""Colour of spectra: reflectance at some wavelengths to linear RGB.
+"""Colour of spectra: reflectance at some wavelengths to linear RGB, and back.
 
     X_k = integral of r(lambda) S(lambda) c_k(lambda) / integral of S(lambda) c_Y(lambda)      c = x-bar, y-bar, z-bar
     RGB = M (X, Y, Z)
@@ -14,6 +14,7 @@ IEC 61966-2-1:1999 for the primaries.
 
 import numpy as np
 from scipy.interpolate import CubicSpline
+from scipy.optimize import lsq_linear
 
 ILLUMINANT = "D65"
 
@@ -70,6 +71,9 @@ _XYZ_TO_RGB = np.array(
     ]
 )
 
+_STRICTNESS = 1e3
+"""Weight of what the primaries must fulfil against their smoothness."""
+
 
 def rgb_weights(wavelengths: np.ndarray) -> np.ndarray:
     """The matrix, shape (3, n), that takes reflectances at ascending ``wavelengths`` (nm) to linear RGB."""
@@ -81,3 +85,28 @@ def rgb_weights(wavelengths: np.ndarray) -> np.ndarray:
     xyz = hats @ (illuminant[:, None] * observer)
     weights = _XYZ_TO_RGB @ xyz.T
     return weights / weights.sum(axis=1, keepdims=True)
+
+
+def smooth_primaries(wavelengths: np.ndarray) -> np.ndarray:
+    """The reflectances at ``wavelengths`` (nm) of the RGB primaries, shape (n, 3): smooth, in [0, 1], summing to 1.
+
+    ``primaries @ rgb`` is a spectrum of that colour: `rgb_weights` leads back to it, and a mix of colours has the mix
+    of their spectra. Among all such primaries these change least from one wavelength to the next (least squares).
+
+    Source: I. Mallett, C. Yuksel, "Spectral Primary Decomposition for Rendering with sRGB Reflectance", EGSR 2019.
+    """
+    n = len(wavelengths)
+    weights = rgb_weights(wavelengths)
+    changes = np.kron(np.eye(3), np.diff(np.eye(n), axis=0))
+    colours = np.kron(np.eye(3), weights)
+    sums = np.kron(np.ones((1, 3)), np.eye(n))
+    constraints, targets = np.vstack([colours, sums]), np.append(np.eye(3), np.ones(n))
+    solution = lsq_linear(
+        np.vstack([changes, _STRICTNESS * constraints]),
+        np.append(np.zeros(len(changes)), _STRICTNESS * targets),
+        bounds=(0, 1),
+        method="bvls",
+    )
+    primaries = solution.x.reshape(3, n).T
+    # What the penalty left over; since weights and primaries sum to 1, the sums stay as they are.
+    return np.clip(primaries @ np.linalg.inv(weights @ primaries), 0, 1)

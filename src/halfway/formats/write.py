@@ -5,12 +5,13 @@ from pathlib import Path
 from ..brdf import TabularBrdf
 from ..errors import OutputError
 from .merl import write_merl
+from .rgl_writer import write_rgl
 
-WRITERS = {".binary": write_merl}
+WRITERS = {".binary": write_merl, ".bsdf": write_rgl}
 
 
 def write_brdf(path: str | Path, table: TabularBrdf) -> None:
-    """Write ``table`` to ``path``: ``.binary`` is a MERL file.
+    """Write ``table`` to ``path``: ``.binary`` is a MERL file, ``.bsdf`` an RGL file (see `write_rgl`).
 
     Raises
     ------

@@ -1,0 +1,184 @@
+"""Writing of RGL `.bsdf` files from any BRDF.
+
+A reader takes the half vector m to the point s of the unit square and shows (see `rgl`)
+
+    f_r cos(theta_o) = rgb(s) D(m) / (4 sigma(i))
+
+so ``rgb = f_r cos(theta_o) 4 sigma(i) / D(m)`` at the half vector of each node makes the file right there, and D (see
+`rgl_normals`) decides how the nodes are spread. Where a node's direction is below the horizon or unmeasured, rgb
+continues the nearest value, so that interpolation up to the edge stays clean. `luminance` steers the readers' importance
+sampling: what is reflected per area of s, nearly 0 below the horizon.
+
+Source: J. Dupuy, W. Jakob, "An Adaptive Parameterization for Efficient Material Acquisition and Rendering", ACM TOG
+37(6), 2018, section 4; the readers (Mitsuba's `measured`, pbrt-v4's `MeasuredBxDF`) for what a file must hold.
+"""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+from scipy.ndimage import distance_transform_edt
+
+from .._types import Directions
+from ..brdf import Brdf
+from .rgl import RglBrdf
+from .rgl_normals import Normals
+from .rgl_quality import Quality, lit_sphere, quality
+from .rgl_reader import from_fields
+from .rgl_warp import Interpolant, Warp, slices
+from .spectra import smooth_primaries
+from .tensor_file import write_tensor_file
+
+WAVELENGTHS = np.arange(380.0, 781, 20)
+"""In nm: where a spectral file has its values."""
+
+_GRAZING = np.pi / 2 - 1e-3
+_LEAST_COSINE = 1e-4
+_LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
+_LEAST_LIGHT = (
+    1e-4  # of the mean: beside a bright node, what is interpolated must be sampled now and then
+)
+
+
+class Resolution(NamedTuple):
+    """How finely a file samples a material."""
+
+    n_theta_i: int
+    """Fixed directions, evenly spaced from the normal to the horizon."""
+    size: int
+    """Nodes along each side of the unit square of the other direction."""
+
+
+RESOLUTIONS = tuple(Resolution(n, 2 * n) for n in (16, 32, 48, 64))
+"""0.5, 2.6, 8 and 18 MB; four to six times as much with spectra."""
+
+MIN_PSNR = 50.0
+
+
+@dataclass(frozen=True)
+class Written:
+    """What was written, and how well it stands for the BRDF."""
+
+    path: Path
+    resolution: Resolution
+    quality: Quality
+
+
+def write_rgl(
+    path: str | Path,
+    brdf: Brdf,
+    *,
+    spectral: bool = False,
+    resolution: Resolution | None = None,
+    min_psnr: float = MIN_PSNR,
+    description: str = "",
+) -> Written:
+    """Write a BRDF as a `.bsdf` file, whole or not at all.
+
+    Parameters
+    ----------
+    path : path
+        Mitsuba and pbrt take any name.
+    brdf : Brdf
+        Any; one that is anisotropic is averaged over phi_h.
+    spectral : bool
+        False: ``rgb``, for Mitsuba's rgb variants. True: ``spectra`` and ``wavelengths`` (smooth upsampling, see
+        `spectra.smooth_primaries`), for pbrt-v4 and Mitsuba's spectral variants. No reader takes both in one file.
+    resolution : Resolution, optional
+        By default the first of `RESOLUTIONS` whose picture is within ``min_psnr``, or the last.
+    min_psnr : float
+        In dB, of the lit sphere of `rgl_quality`.
+    description : str
+        What readers show of the file.
+
+    Raises
+    ------
+    OutputError
+        When the file cannot be written.
+    """
+    path = Path(path)
+    description = description or str(getattr(brdf, "name", ""))
+    if isinstance(brdf, RglBrdf) and not brdf.is_isotropic:
+        brdf = brdf.turned_mean()
+    expected = lit_sphere(brdf)
+    normals = Normals.of(brdf)
+    fields, used, reached = {}, RESOLUTIONS[0], Quality(0.0, 1.0)
+    for used in [resolution] if resolution else RESOLUTIONS:
+        fields = _fields(brdf, normals, used, description)
+        reached = quality(lit_sphere(from_fields(fields, path.name)), expected)
+        if reached.psnr >= min_psnr:
+            break
+    write_tensor_file(path, _with_spectra(fields) if spectral else fields)
+    return Written(path, used, reached)
+
+
+def _fields(
+    brdf: Brdf, normals: Normals, resolution: Resolution, description: str
+) -> dict[str, np.ndarray]:
+    theta_i = np.linspace(0, np.pi / 2, resolution.n_theta_i)
+    vndf = normals.visible(theta_i)
+    warp = Warp.of(vndf)
+    parts = [
+        _slice(brdf, normals, warp, i, min(t, _GRAZING), resolution.size)
+        for i, t in enumerate(theta_i)
+    ]
+    rgb, luminance = (np.stack(part).astype(np.float32) for part in zip(*parts, strict=True))
+    return {
+        "description": np.frombuffer(description.encode() or b" ", np.uint8),
+        "phi_i": np.zeros(1, np.float32),
+        "theta_i": theta_i.astype(np.float32),
+        # Isotropic: the same in both rows of phi.
+        "ndf": np.tile(normals.density.astype(np.float32), (2, 1)),
+        "sigma": np.tile(normals.area.astype(np.float32), (2, 1)),
+        "vndf": vndf[None],
+        "luminance": luminance[None],
+        "rgb": np.moveaxis(rgb, -1, 1)[None],
+        "jacobian": np.ones(1, np.uint8),
+    }
+
+
+def _slice(
+    brdf: Brdf, normals: Normals, warp: Warp, i_slice: int, theta_i: float, size: int
+) -> tuple[np.ndarray, np.ndarray]:
+    """``rgb``, shape (size, size, 3), and ``luminance``, shape (size, size), seen from one fixed direction."""
+    side = np.linspace(0, 1, size)
+    s_phi, s_theta = (s.ravel() for s in np.meshgrid(side, side, indexing="ij"))
+    u_theta, u_phi = warp.sample(s_theta, s_phi, i_slice)
+    i = np.array([np.sin(theta_i), 0.0, np.cos(theta_i)])
+    m = _direction(np.pi / 2 * u_theta**2, np.pi * (2 * u_phi - 1))
+    o = 2 * (m @ i)[:, None] * m - i
+    values = brdf.eval(o, np.broadcast_to(i, o.shape))
+    known = (o[:, 2] > _LEAST_COSINE) & (m @ i > 0) & np.isfinite(values).all(axis=1)
+    scale = o[:, 2] * 4 * normals.area_at(theta_i) / normals.density_at(u_theta)
+    rgb = np.where(known[:, None], np.maximum(values, 0) * scale[:, None], 0)
+    rgb = _continued(rgb.reshape(size, size, 3), known.reshape(size, size))
+    crowding = Interpolant(warp.density[i_slice, ..., None][None]).at(
+        u_theta, u_phi, slices((), ())
+    )
+    area = normals.density_at(u_theta) * np.maximum(m @ i, 0) * u_theta * np.hypot(m[:, 0], m[:, 1])
+    area = np.divide(area, crowding[:, 0], out=np.zeros_like(area), where=crowding[:, 0] > 0)
+    # f_r cos(theta_o) times the area of directions that a piece of the unit square stands for
+    light = np.where(o[:, 2] > 0, area, 0).reshape(size, size) * (rgb @ _LUMINANCE)
+    # The smallest summand keeps the density of a black material positive.
+    return rgb, light + _LEAST_LIGHT * light.mean() + 1e-30
+
+
+def _direction(theta: np.ndarray, phi: np.ndarray) -> Directions:
+    sin = np.sin(theta)
+    return np.stack([sin * np.cos(phi), sin * np.sin(phi), np.cos(theta)], axis=-1)
+
+
+def _continued(values: np.ndarray, known: np.ndarray) -> np.ndarray:
+    """The nearest known value where there is none."""
+    if known.all() or not known.any():
+        return values
+    nearest = distance_transform_edt(~known, return_distances=False, return_indices=True)
+    return values[tuple(np.asarray(nearest))]
+
+
+def _with_spectra(fields: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
+    primaries = smooth_primaries(WAVELENGTHS).astype(np.float32)
+    rest = {name: values for name, values in fields.items() if name != "rgb"}
+    spectra = np.einsum("lc,ptcxy->ptlxy", primaries, fields["rgb"])
+    return {**rest, "wavelengths": WAVELENGTHS.astype(np.float32), "spectra": spectra}
