@@ -18,7 +18,6 @@ from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
-from scipy.ndimage import distance_transform_edt
 
 from .._types import Directions
 from ..brdf import Brdf
@@ -173,6 +172,8 @@ def _continued(values: np.ndarray, known: np.ndarray) -> np.ndarray:
     """The nearest known value where there is none."""
     if known.all() or not known.any():
         return values
+    from scipy.ndimage import distance_transform_edt
+
     nearest = distance_transform_edt(~known, return_distances=False, return_indices=True)
     return values[tuple(np.asarray(nearest))]
 

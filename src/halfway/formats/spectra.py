@@ -13,8 +13,6 @@ IEC 61966-2-1:1999 for the primaries.
 """
 
 import numpy as np
-from scipy.interpolate import CubicSpline
-from scipy.optimize import lsq_linear
 
 ILLUMINANT = "D65"
 
@@ -77,6 +75,9 @@ _STRICTNESS = 1e3
 
 def rgb_weights(wavelengths: np.ndarray) -> np.ndarray:
     """The matrix, shape (3, n), that takes reflectances at ascending ``wavelengths`` (nm) to linear RGB."""
+    # Here, because scipy takes long to load and most files hold RGB.
+    from scipy.interpolate import CubicSpline
+
     steps = np.arange(_CIE[0, 0], _CIE[-1, 0] + 1)
     illuminant = np.interp(steps, _CIE[:, 0], _CIE[:, 1])
     observer = CubicSpline(_CIE[:, 0], _CIE[:, 2:])(steps)
@@ -95,6 +96,8 @@ def smooth_primaries(wavelengths: np.ndarray) -> np.ndarray:
 
     Source: I. Mallett, C. Yuksel, "Spectral Primary Decomposition for Rendering with sRGB Reflectance", EGSR 2019.
     """
+    from scipy.optimize import lsq_linear
+
     n = len(wavelengths)
     weights = rgb_weights(wavelengths)
     changes = np.kron(np.eye(3), np.diff(np.eye(n), axis=0))
