@@ -1,0 +1,137 @@
+"""The explorer in a real Chromium, drawn by its software rasteriser.
+
+A console error fails the test: three.js logs a shader that does not compile and carries on.
+"""
+
+import shutil
+import threading
+from collections.abc import Generator, Iterator
+from dataclasses import dataclass
+
+import pytest
+import uvicorn
+from playwright.sync_api import (
+    Browser,
+    BrowserContext,
+    ConsoleMessage,
+    Error,
+    Page,
+    sync_playwright,
+)
+
+from halfway.halfdiff import Grid
+from halfway.library import ProceduralLibrary
+from halfway.models import builtin
+from halfway.server import Page as Files
+from halfway.server import create_app
+from halfway.server.run import listen
+
+FLAGS = [
+    "--no-sandbox",
+    "--disable-gpu",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+    "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader",
+]
+# Matte, glossy and mirror-like materials among them; a coarser grid than MERL's makes a table 1 MB.
+MATERIALS = (
+    "blue-fabric", "cherry-235", "chrome", "gold-paint", "green-plastic", "pearl-paint", "pink-felt", "red-metallic-paint",
+    "teflon", "yellow-matte-plastic",
+)  # fmt: skip
+GRID = Grid.merl(60, 30, 36)
+SIZE = {"width": 820, "height": 760}
+
+
+@pytest.fixture(scope="session")
+def library() -> ProceduralLibrary:
+    models = builtin("merl-abc").models
+    return ProceduralLibrary("browser", {name: models[name] for name in MATERIALS}, grid=GRID)
+
+
+@pytest.fixture(scope="session")
+def address(library: ProceduralLibrary) -> Generator[str]:
+    with listen(0) as listener:
+        config = uvicorn.Config(create_app(library, page=Files.load()), log_level="error")
+        server = uvicorn.Server(config)
+        thread = threading.Thread(target=server.run, args=([listener],), daemon=True)
+        thread.start()
+        yield f"http://127.0.0.1:{listener.getsockname()[1]}/"
+        server.should_exit = True
+        thread.join(20)
+
+
+@pytest.fixture(scope="session")
+def browser() -> Iterator[Browser]:
+    with sync_playwright() as playwright:
+        # A machine's own Chromium where there is one, else the one that Playwright installs.
+        executable = shutil.which("chromium")
+        try:
+            browser = playwright.chromium.launch(executable_path=executable, args=FLAGS)
+        except Error as error:
+            pytest.skip(
+                f"needs a Chromium (`playwright install chromium`): {str(error).splitlines()[0]}"
+            )
+        yield browser
+        browser.close()
+
+
+@dataclass
+class Explorer:
+    """A page of the explorer, and what a test does with it."""
+
+    page: Page
+    address: str
+    expected: str = "\0"
+    """Console errors that begin so are the test's own doing."""
+
+    def open(self, fragment: str = "") -> None:
+        self.page.goto("about:blank")
+        self.page.goto(self.address + fragment)
+        self.page.wait_for_selector("#app.ready")
+
+    def wait_for_picture(self, samples: int = 1) -> None:
+        """Until the present recipe has so many samples."""
+        self.page.wait_for_function(
+            "n => Number(document.querySelector('.material').dataset.samples) >= n",
+            arg=samples,
+            timeout=90_000,
+        )
+
+    @property
+    def recipe(self) -> list[str]:
+        return self.page.locator(".recipe .name").all_text_contents()
+
+    @property
+    def stops(self) -> list[str]:
+        return [
+            chip.get_attribute("data-stop") or ""
+            for chip in self.page.locator(".chip[data-stop]").all()
+        ]
+
+    def set_t(self, t: float) -> None:
+        self.page.locator("#t").fill(str(t))
+
+
+@pytest.fixture
+def explorer(browser: Browser, address: str) -> Iterator[Explorer]:
+    context: BrowserContext = browser.new_context(
+        viewport=SIZE, accept_downloads=True, color_scheme="dark"
+    )
+    page = context.new_page()
+    errors: list[str] = []
+
+    def on_console(message: ConsoleMessage) -> None:
+        if message.type == "error":
+            errors.append(message.text)
+
+    page.on("console", on_console)
+    page.on("pageerror", lambda error: errors.append(str(error)))
+    explorer = Explorer(page, address)
+    yield explorer
+    context.close()
+    unexpected = [error for error in errors if not error.startswith(explorer.expected)]
+    assert not unexpected, "\n".join(unexpected)

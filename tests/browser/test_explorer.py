@@ -1,0 +1,184 @@
+"""What a person does with the explorer."""
+
+import json
+from pathlib import Path
+
+import pytest
+from conftest import Explorer  # pyright: ignore[reportMissingImports]
+from playwright.sync_api import Browser
+
+from halfway.formats import write_merl
+from halfway.library import ProceduralLibrary
+from halfway.space import Recipe, mix
+
+PAIR = "#space=linear&stops=cherry-235,gold-paint"
+
+
+def test_the_first_picture_comes(explorer: Explorer) -> None:
+    explorer.open()
+    explorer.wait_for_picture()
+    assert len(explorer.stops) == 2
+
+
+def test_moving_t_changes_the_recipe_and_not_the_samples(explorer: Explorer) -> None:
+    explorer.open(PAIR + "&t=0.5&light=points")
+    explorer.wait_for_picture(16)
+    before = picture(explorer)
+    explorer.set_t(0.25)
+    assert explorer.page.locator(".recipe .share").all_text_contents() == ["75 %", "25 %"]
+    explorer.page.wait_for_function("() => document.querySelector('.t b').textContent === '0.250'")
+    explorer.wait_for_picture(16)
+    assert explorer.page.locator(".material .note").inner_text() == "16 / 16 samples"
+    assert picture(explorer) != before
+
+
+def test_at_a_stop_the_recipe_is_that_material(explorer: Explorer) -> None:
+    explorer.open("#space=paper&stops=teflon,chrome,pink-felt&t=0.5")
+    explorer.page.wait_for_selector(".recipe .name")
+    assert explorer.recipe == ["chrome"]
+
+
+def test_the_search_sets_a_stop_and_undo_takes_it_back(explorer: Explorer) -> None:
+    explorer.open(PAIR)
+    explorer.page.wait_for_selector(".recipe .name")
+    explorer.page.keyboard.press("/")
+    explorer.page.keyboard.type("pearl")
+    explorer.page.keyboard.press("Enter")
+    assert explorer.stops == ["cherry-235", "pearl-paint"]
+    explorer.page.keyboard.press("Control+z")
+    assert explorer.stops == ["cherry-235", "gold-paint"]
+    explorer.page.keyboard.press("Control+Shift+z")
+    assert explorer.stops == ["cherry-235", "pearl-paint"]
+
+
+def test_a_search_without_a_match_says_so(explorer: Explorer) -> None:
+    explorer.open(PAIR)
+    explorer.page.locator("#search").fill("unobtainium")
+    assert explorer.page.locator("#results").inner_text() == "No material of this name"
+
+
+def test_stops_are_added_and_removed(explorer: Explorer) -> None:
+    explorer.open(PAIR)
+    explorer.page.get_by_label("Add a stop").click()
+    explorer.page.locator("#search").fill("teflon")
+    explorer.page.keyboard.press("Enter")
+    assert explorer.stops == ["cherry-235", "gold-paint", "teflon"]
+    explorer.page.get_by_label("Remove gold-paint").click()
+    assert explorer.stops == ["cherry-235", "teflon"]
+
+
+def test_a_click_in_the_space_sets_a_stop(explorer: Explorer) -> None:
+    explorer.open(PAIR)
+    explorer.page.wait_for_selector(".here")
+    box = explorer.page.locator("#space-view").bounding_box()
+    assert box is not None
+    for x, y in (
+        (x, y) for y in range(60, int(box["height"]), 9) for x in range(10, int(box["width"]), 9)
+    ):
+        explorer.page.mouse.move(box["x"] + x, box["y"] + y)
+        hovered = explorer.page.locator(".label.hovered")
+        if hovered.count() and hovered.inner_text() not in explorer.stops:
+            break
+    name = explorer.page.locator(".label.hovered").inner_text()
+    explorer.page.mouse.down()
+    explorer.page.mouse.up()
+    assert explorer.stops == ["cherry-235", name]
+
+
+def test_a_reload_comes_back_to_the_same_place(explorer: Explorer) -> None:
+    explorer.open("#space=linear&stops=chrome,teflon,pink-felt&t=0.75&light=points&shape=teapot")
+    explorer.page.wait_for_selector(".recipe .name")
+    explorer.set_t(0.6)
+    explorer.page.wait_for_function("() => location.hash.includes('t=0.6')")
+    explorer.page.reload()
+    explorer.page.wait_for_selector(".recipe .name")
+    assert explorer.stops == ["chrome", "teflon", "pink-felt"]
+    assert explorer.page.locator(".t b").inner_text() == "0.600"
+    assert explorer.page.locator("[data-value=teapot]").get_attribute("aria-pressed") == "true"
+
+
+def test_the_downloaded_merl_file_is_the_written_one(
+    explorer: Explorer, library: ProceduralLibrary, tmp_path: Path
+) -> None:
+    explorer.open("#space=paper&stops=cherry-235,gold-paint&t=0.37")
+    explorer.page.wait_for_selector(".recipe .name")
+    with explorer.page.expect_download() as recipe_file:
+        explorer.page.get_by_role("button", name="Recipe JSON").click()
+    with explorer.page.expect_download() as merl_file:
+        explorer.page.get_by_role("button", name="MERL file").click()
+    recipe = Recipe.from_json(json.loads(recipe_file.value.path().read_text()))
+    write_merl(tmp_path / "mixed.binary", mix(library, recipe))
+    assert merl_file.value.path().read_bytes() == (tmp_path / "mixed.binary").read_bytes()
+    assert merl_file.value.suggested_filename == "cherry-235-to-gold-paint-0.370.binary"
+
+
+def test_the_picture_is_taken_home(explorer: Explorer) -> None:
+    explorer.open(PAIR + "&light=points")
+    explorer.wait_for_picture(16)
+    with explorer.page.expect_download() as picture_file:
+        explorer.page.get_by_role("button", name="Picture").click()
+    assert picture_file.value.path().read_bytes().startswith(b"\x89PNG")
+
+
+def test_it_plays(explorer: Explorer) -> None:
+    explorer.open(PAIR + "&t=0.2")
+    explorer.page.wait_for_selector(".recipe .name")
+    explorer.page.keyboard.press("Space")
+    explorer.page.wait_for_function(
+        "() => Number(document.querySelector('.t b').textContent) > 0.25"
+    )
+    explorer.page.keyboard.press("Space")
+    assert explorer.page.get_by_label("Play (space)").get_attribute("aria-pressed") == "false"
+
+
+def test_the_theme_changes_and_stays(explorer: Explorer) -> None:
+    explorer.open(PAIR)
+    explorer.page.get_by_label("Dark or light").click()
+    assert explorer.page.locator("html").get_attribute("data-theme") == "light"
+    explorer.page.reload()
+    explorer.page.wait_for_selector("#app.ready")
+    assert explorer.page.locator("html").get_attribute("data-theme") == "light"
+
+
+@pytest.mark.parametrize("width", [800, 1440, 2560])
+def test_nothing_sticks_out(explorer: Explorer, width: int) -> None:
+    explorer.page.set_viewport_size({"width": width, "height": 900})
+    explorer.open(PAIR + "&light=points")
+    explorer.page.wait_for_selector(".recipe .name")
+    assert explorer.page.evaluate("document.documentElement.scrollWidth") <= width
+    for selector in (".head", ".space", ".material", ".route", ".recipe", ".brdf"):
+        inside = explorer.page.evaluate(
+            "s => { const e = document.querySelector(s); return e.scrollWidth <= e.clientWidth + 1; }",
+            selector,
+        )
+        assert inside, selector
+
+
+def test_a_server_that_went_away_is_said(explorer: Explorer) -> None:
+    explorer.open(PAIR)
+    explorer.page.wait_for_selector(".recipe .name")
+    explorer.expected = "Failed to load resource"  # the browser's own words
+    explorer.page.route("**/api/route*", lambda route: route.abort())
+    explorer.page.locator("#space").select_option("paper")
+    explorer.page.wait_for_selector(".problem:not([hidden])")
+    assert "halfway view" in explorer.page.locator(".problem").inner_text()
+
+
+def test_without_webgl_a_small_picture_stands_in(browser: Browser, address: str) -> None:
+    context = browser.new_context()
+    context.add_init_script(
+        "const get = HTMLCanvasElement.prototype.getContext;"
+        "HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {"
+        " return kind.startsWith('webgl') ? null : get.call(this, kind, ...rest); };"
+    )
+    page = context.new_page()
+    page.goto(address + PAIR)
+    page.wait_for_selector(".material[data-ready=still]")
+    assert "stands in" in page.locator(".material .reason").inner_text()
+    page.locator("#t").fill("0.9")
+    assert page.locator(".recipe .share").all_text_contents() == ["90 %", "10 %"]
+    context.close()
+
+
+def picture(explorer: Explorer) -> str:
+    return explorer.page.evaluate("document.querySelector('#material').toDataURL()")

@@ -1,0 +1,178 @@
+"""The page's pixels against quadrature in float64.
+
+The camera, the sphere and the lights are those of `halfway.render.scenes`; the page shows 8-bit sRGB.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+import pytest
+from conftest import Explorer  # pyright: ignore[reportMissingImports]
+
+from halfway.brdf import TabularBrdf, hemisphere
+from halfway.library import ProceduralLibrary
+from halfway.render.pictures import to_srgb
+from halfway.render.scenes import SCENES
+from halfway.render.studio import studio
+
+MATERIALS = ["pink-felt", "cherry-235", "chrome"]
+SCENE = SCENES["spheres"]
+# A pixel is the mean over its area; this many points along each side stand for it.
+N_POINTS = 5
+LEVELS = 2
+"""Half floats (.05 %), the fixed-point weights of the hardware filter and 8 bits: at most two levels, where the picture is smooth."""
+
+
+@dataclass
+class Picture:
+    """Pixels of the page, and the camera that they belong to."""
+
+    bytes: np.ndarray
+    """(height, width, 4)"""
+
+    def rays(self, rows: np.ndarray, columns: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Eye and unit rays through the given places, in pixels."""
+        height, width = self.bytes.shape[:2]
+        eye, target = np.array(SCENE.camera.at), np.array(SCENE.camera.target)
+        forward = (target - eye) / np.linalg.norm(target - eye)
+        right = np.cross(forward, [0.0, 0.0, 1.0])
+        up = np.cross(right, forward)
+        scale = np.tan(np.radians(SCENE.camera.fov_degrees) / 2) / (min(width, height) / 2)
+        x, y = (columns - width / 2) * scale, (height / 2 - rows) * scale
+        rays = forward + x[..., None] * right + y[..., None] * up
+        return eye, rays / np.linalg.norm(rays, axis=-1, keepdims=True)
+
+
+def picture(explorer: Explorer) -> Picture:
+    # From the drawing buffer, not a screenshot: neither scaled nor composited.
+    width, height, data = explorer.page.evaluate(
+        """() => {
+          const canvas = document.querySelector("#material");
+          const copy = new OffscreenCanvas(canvas.width, canvas.height).getContext("2d");
+          copy.drawImage(canvas, 0, 0);
+          const { data } = copy.getImageData(0, 0, canvas.width, canvas.height);
+          return [canvas.width, canvas.height, Array.from(data)];
+        }"""
+    )
+    return Picture(np.array(data, np.uint8).reshape(height, width, 4))
+
+
+def surface(
+    shown: Picture, rows: np.ndarray, columns: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Position, normal and direction to the eye where the rays meet the sphere."""
+    eye, rays = shown.rays(rows, columns)
+    centre = np.array([0.0, 0.0, 1.0]) - eye
+    along = rays @ centre
+    miss = centre - along[..., None] * rays
+    at = eye + (along - np.sqrt(1 - (miss**2).sum(-1)))[..., None] * rays
+    return at, at - [0.0, 0.0, 1.0], -rays
+
+
+def local(normal: np.ndarray, vectors: np.ndarray) -> np.ndarray:
+    """Directions in a frame about the normal; isotropic materials do not care which."""
+    helper = np.where(np.abs(normal[..., :1]) > 0.5, [0.0, 1.0, 0.0], [1.0, 0.0, 0.0])
+    x = np.cross(helper, normal)
+    x /= np.linalg.norm(x, axis=-1, keepdims=True)
+    y = np.cross(normal, x)
+    return np.stack([(vectors * axis).sum(-1) for axis in (x, y, normal)], axis=-1)
+
+
+def under_points(
+    brdf: TabularBrdf, at: np.ndarray, normal: np.ndarray, wo: np.ndarray
+) -> np.ndarray:
+    radiance = np.zeros((*at.shape[:-1], 3))
+    for light in SCENE.points:
+        way = np.array(light.at) - at
+        distance = np.linalg.norm(way, axis=-1, keepdims=True)
+        wi = local(normal, way / distance)
+        values = np.nan_to_num(brdf.eval(wi, local(normal, wo)))
+        radiance += values * np.maximum(wi[..., 2:], 0) * light.intensity / distance**2
+    return radiance
+
+
+def in_studio(
+    brdf: TabularBrdf, normal: np.ndarray, wo: np.ndarray, environment: np.ndarray
+) -> np.ndarray:
+    """One point, by the midpoint rule over half vectors, where the table is smooth."""
+    z = np.array(normal)
+    x = np.cross([1.0, 0.0, 0.0], z)
+    x /= np.linalg.norm(x)
+    frame = np.stack([x, np.cross(z, x), z])
+    out = frame @ wo
+    h, dh = hemisphere(360, 240)
+    cosine = h @ out
+    wi = 2 * cosine[:, None] * h - out
+    lit = (cosine > 0) & (wi[:, 2] > 0)
+    wi, measure = wi[lit], (4 * cosine * dh)[lit]
+    values = np.nan_to_num(brdf.eval(wi, np.broadcast_to(out, wi.shape)))
+    light = seen(environment, wi @ frame)
+    return ((measure * wi[:, 2])[:, None] * values * light).sum(axis=0)
+
+
+def seen(environment: np.ndarray, w: np.ndarray) -> np.ndarray:
+    """The latitude-longitude picture along directions, linear between pixel centres."""
+    height, width = environment.shape[:2]
+    column = width * (np.arctan2(w[:, 0], w[:, 1]) / (2 * np.pi) + 0.5) - 0.5
+    row = np.clip(height * np.arccos(np.clip(w[:, 2], -1, 1)) / np.pi - 0.5, 0, height - 1)
+    j, i = np.floor(column).astype(int), np.minimum(np.floor(row).astype(int), height - 2)
+    u, v = (column - j)[:, None], (row - i)[:, None]
+    left, right = j % width, (j + 1) % width
+    top = (1 - u) * environment[i, left] + u * environment[i, right]
+    return (1 - v) * top + v * ((1 - u) * environment[i + 1, left] + u * environment[i + 1, right])
+
+
+def places(shown: Picture, n: int, seed: int) -> np.ndarray:
+    """Pixels well inside the sphere, (n, 2): row, column."""
+    height, width = shown.bytes.shape[:2]
+    rng = np.random.default_rng(seed)
+    radius = 0.38 * min(height, width) * np.sqrt(rng.random(n))
+    turn = 2 * np.pi * rng.random(n)
+    return np.stack(
+        [height / 2 + radius * np.sin(turn), width / 2 + radius * np.cos(turn)], -1
+    ).astype(int)
+
+
+@pytest.mark.parametrize("name", MATERIALS)
+def test_three_lights(explorer: Explorer, library: ProceduralLibrary, name: str) -> None:
+    other = "teflon"
+    explorer.open(f"#space=linear&stops={name},{other}&t=0&light=points")
+    explorer.wait_for_picture(16)
+    shown = picture(explorer)
+    pixels = places(shown, 300, seed=1)
+    offsets = (np.arange(N_POINTS) + 0.5) / N_POINTS
+    rows = pixels[:, 0, None, None] + offsets[:, None]
+    columns = pixels[:, 1, None, None] + offsets
+    at, normal, wo = surface(shown, *np.broadcast_arrays(rows, columns))
+    radiance = under_points(library.brdf(name), at, normal, wo)
+    expected = to_srgb(radiance.mean(axis=(1, 2))).astype(int)
+    # Inside a highlight's edge 16 points do not settle a pixel: compare where the pixel is nearly even.
+    spread = to_srgb(radiance.max(axis=(1, 2))).astype(int) - to_srgb(radiance.min(axis=(1, 2)))
+    even = (spread <= 8).all(axis=-1)
+    assert even.sum() > 200
+    difference = np.abs(shown.bytes[tuple(pixels.T)][:, :3].astype(int) - expected)[even]
+    assert difference.max() <= LEVELS
+
+
+@pytest.mark.parametrize("name", MATERIALS)
+def test_studio(explorer: Explorer, library: ProceduralLibrary, name: str) -> None:
+    explorer.page.set_viewport_size({"width": 620, "height": 600})
+    explorer.open(f"#space=linear&stops={name},teflon&t=0&light=studio&exposure=-1")
+    explorer.wait_for_picture(128)
+    shown = picture(explorer)
+    pixels = places(shown, 24, seed=2)
+    _, normal, wo = surface(shown, pixels[:, 0] + 0.5, pixels[:, 1] + 0.5)
+    environment = studio().astype(np.float64)
+    brdf = library.brdf(name)
+    radiance = np.stack(
+        [in_studio(brdf, n, o, environment) for n, o in zip(normal, wo, strict=True)]
+    )
+    expected = to_srgb(radiance / 2).astype(float)
+    # The mean over a few pixels around each place: less noise, and the picture is smooth there.
+    got = np.stack(
+        [shown.bytes[i - 2 : i + 3, j - 2 : j + 3, :3].mean(axis=(0, 1)) for i, j in pixels]
+    )
+    error = np.abs(got - expected)
+    print(name, np.median(error), error.mean(), error.max())
+    assert np.median(error) < 1.5
+    assert error.mean() < 3
