@@ -43,10 +43,11 @@ def shown(rgb: Float[np.ndarray, "..."]) -> Float[np.ndarray, "..."]:
     Up to s = `SHOULDER` a value x is itself; above it becomes ``s + (1 - s) (1 - exp(-(x - s)/(1 - s)))``, which has the
     same slope at s, and tends to 1.
     """
-    room = rgb.dtype.type(1 - SHOULDER)
-    # The clipped values leave the other branch without overflow.
-    over = np.maximum(rgb - rgb.dtype.type(SHOULDER), 0)
-    return np.clip(rgb, 0, SHOULDER) - room * np.expm1(-over / room)
+    light = np.clip(rgb, 0, SHOULDER)
+    # Few values are highlights: the exponential is taken of those alone.
+    over = np.nonzero(rgb > SHOULDER)
+    light[over] -= (1 - SHOULDER) * np.expm1((SHOULDER - rgb[over]) / (1 - SHOULDER))
+    return light
 
 
 def to_lab(rgb: Pictures) -> Lab:

@@ -58,7 +58,7 @@ def difference(f: TabularBrdf, g: TabularBrdf, metric: Metric = "log") -> Differ
             f"{f.name!r} is on a {f.grid} grid and {g.name!r} on {g.grid}: only tables on one grid can be compared. "
             "Tabulate one of them on the other's grid."
         )
-    cells = _cells(f.grid)
+    cells = comparison_cells(f.grid)
     measured = ~(np.isnan(f.values) | np.isnan(g.values))
     if metric == "relative":
         apart = _relative
@@ -106,7 +106,7 @@ def log_relative(f: Samples, cos_i: Angle, cos_o: Angle) -> Samples:
 
 
 Mapping = Callable[[Samples, Angle, Angle], Samples]
-MAPPINGS: dict[str, Mapping] = {
+MAPPINGS: dict[Metric, Mapping] = {
     "cosine": cosine_weighted,
     "cube-root": cube_root,
     "log": log,
@@ -114,7 +114,7 @@ MAPPINGS: dict[str, Mapping] = {
 }
 
 
-class _Cells(NamedTuple):
+class Cells(NamedTuple):
     """What the cells of a grid bring to a comparison; arrays of the grid's shape."""
 
     solid_angle: Float64[np.ndarray, "..."]
@@ -124,17 +124,18 @@ class _Cells(NamedTuple):
 
 
 @lru_cache(maxsize=2)
-def _cells(grid: Grid) -> _Cells:
+def comparison_cells(grid: Grid) -> Cells:
+    """The solid angles and cosines of a grid's cells."""
     angles = grid.centres()
     cos_i, cos_o = (
         np.broadcast_to(cosine, grid.shape)
         for cosine in cosines(angles.theta_h, angles.theta_d, angles.phi_d)
     )
     grazing = np.minimum(cos_i, cos_o) < np.cos(np.radians(GRAZING_DEGREES))
-    return _Cells(grid.solid_angles(), cos_i, cos_o, grazing)
+    return Cells(grid.solid_angles(), cos_i, cos_o, grazing)
 
 
-def _root_mean_square(cells: _Cells, mapping: Mapping, f: Table, g: Table, counts: Mask) -> float:
+def _root_mean_square(cells: Cells, mapping: Mapping, f: Table, g: Table, counts: Mask) -> float:
     total = weight = 0.0
     for f_c, g_c, counts_c in zip(f, g, counts, strict=True):
         solid_angle, cos_i, cos_o, _ = (array[counts_c] for array in cells)

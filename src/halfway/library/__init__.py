@@ -1,6 +1,7 @@
 """Libraries: sets of materials on one grid, and their principal components."""
 
 from .basis import BasisImages
+from .basis_samples import BasisSamples
 from .basis_scene import JUDGING_SCENE, PACING_SCENE, BasisScene, SphereOperator
 from .library import Library, Origin
 from .opening import DEFAULT_LIBRARY, open_library
@@ -13,6 +14,7 @@ __all__ = [
     "JUDGING_SCENE",
     "PACING_SCENE",
     "BasisImages",
+    "BasisSamples",
     "BasisScene",
     "Library",
     "Origin",

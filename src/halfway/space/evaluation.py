@@ -1,0 +1,263 @@
+"""How well a space moves between materials.
+
+For each of a set of pairs of materials, on the way from one to the other in `N_STEPS` materials:
+
+    detour          length of the path / distance of its ends, mean CIELAB difference on the basis images; 1 is straight
+    jump            largest step / mean step, per pace; 1 is even. Also judged in CIEDE2000 in a scene that no pace knows
+    hue_excursion   how far the body colour strays, in the (a*, b*) plane of CIELAB, from where plain mixing of the two
+                    ends' body colours would take it; 0 is on the way
+    realism         difference between the mix at t = 1/2 and the nearest measured material: in the log metric, by solid
+                    angle ("log") and by cell of the grid ("log by cell"), and mean CIELAB in the judging scene ("seen")
+    others          share of weight, at t = 1/2, on materials other than the two ends
+
+Coherence alone is no achievement: plain linear interpolation has detour 1 and passes through few real materials. Look
+at detour and realism together.
+
+Pictures are those of `halfway.library.BasisImages`, table metrics those of `halfway.library.BasisSamples`.
+"""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+from jaxtyping import Float32, Float64, Int
+
+from ..brdf.image_metrics import (
+    Means,
+    appearance,
+    ciede2000_difference,
+    cielab_difference,
+    shown,
+    to_lab,
+)
+from ..library import JUDGING_SCENE, PACING_SCENE, BasisImages, BasisSamples, Library
+from ..tasks import Track, run, silent
+from .spaces import Leg, Space, interpolate
+
+N_STEPS = 41
+"""Materials on the way of each pair, both ends included."""
+LEAST_DISTANCE = 3.0
+"""Pairs whose ends look nearer than this (mean CIELAB difference) are left out of a summary's detours: a ratio to nothing."""
+
+REALISM = ("log", "log by cell", "seen")
+
+Pairs = Int[np.ndarray, "n_pairs 2"]
+Pace = Callable[[Leg, int], Float64[np.ndarray, " n_steps"]]
+"""Where on a leg the n materials of a route are: ascending t from 0 to 1."""
+
+
+def uniform_pace(leg: Leg, n_steps: int) -> Float64[np.ndarray, " n_steps"]:  # noqa: ARG001 (a `Pace`)
+    """Evenly spaced t: the paper's way."""
+    return np.linspace(0, 1, n_steps)
+
+
+def sample_pairs(n_materials: int, n_pairs: int | None = None, *, seed: int = 0) -> Pairs:
+    """``n_pairs`` different pairs of materials, the same for the same seed; all of them for None."""
+    pairs = np.stack(np.triu_indices(n_materials, 1), axis=1)
+    if n_pairs is None or n_pairs >= len(pairs):
+        return pairs
+    drawn = np.random.default_rng(seed).choice(len(pairs), n_pairs, replace=False)
+    return pairs[np.sort(drawn)]
+
+
+@dataclass(frozen=True, eq=False)
+class Bench:
+    """What spaces of one library are measured with."""
+
+    pacing: BasisImages
+    judging: BasisImages
+    """Of another scene; used for nothing but judging."""
+    samples: BasisSamples
+
+    @classmethod
+    def fit(cls, library: Library, *, cache: Path | None = None, track: Track = silent) -> "Bench":
+        """The bench of ``library``; a ``cache`` folder keeps it for the next time."""
+        return cls(
+            BasisImages.fit(library, PACING_SCENE, cache=cache, track=track),
+            BasisImages.fit(library, JUDGING_SCENE, cache=cache, track=track),
+            BasisSamples.fit(library, cache=cache, track=track),
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class Evaluation:
+    """One space on a set of pairs; each array has one value per pair."""
+
+    space: str
+    pairs: Pairs
+    distance: Float64[np.ndarray, " n_pairs"]
+    """Of the ends: mean CIELAB difference on the basis images."""
+    detour: Float64[np.ndarray, " n_pairs"]
+    jump: Mapping[str, Float64[np.ndarray, " n_pairs"]]
+    """By pace."""
+    judged_jump: Mapping[str, Float64[np.ndarray, " n_pairs"]]
+    """By pace, in CIEDE2000 in the judging scene."""
+    hue_excursion: Float64[np.ndarray, " n_pairs"]
+    realism: Mapping[str, Float64[np.ndarray, " n_pairs"]]
+    """By the ways of `REALISM`; small is real."""
+    others: Float64[np.ndarray, " n_pairs"]
+
+    def to_json(self) -> dict[str, Any]:
+        """Median, 90th percentile and maximum of each measure; ratios over pairs that are `LEAST_DISTANCE` apart."""
+        apart = self.distance >= LEAST_DISTANCE
+        return {
+            "space": self.space,
+            "n_pairs": len(self.pairs),
+            "n_pairs_apart": int(apart.sum()),
+            "detour": _spread(self.detour[apart]),
+            "jump": {pace: _spread(jump[apart]) for pace, jump in self.jump.items()},
+            "judged_jump": {pace: _spread(jump[apart]) for pace, jump in self.judged_jump.items()},
+            "hue_excursion": _spread(self.hue_excursion),
+            "realism": {way: _spread(realism) for way, realism in self.realism.items()},
+            "others": _spread(self.others),
+        }
+
+
+def evaluate(
+    space: Space,
+    bench: Bench,
+    pairs: Pairs,
+    *,
+    paces: Mapping[str, Pace] = {"uniform": uniform_pace},
+    track: Track = silent,
+) -> Evaluation:
+    """The measures of ``space`` on ``pairs``."""
+    measure = partial(_measure, space, bench, _Measured.of(bench), tuple(paces.values()))
+    rows = list(run(measure, list(pairs), label=f"Evaluating {space.name}", track=track))
+    distance, detour, jump, judged_jump, hue_excursion, realism, others = map(
+        np.array, zip(*rows, strict=True)
+    )
+    return Evaluation(
+        space.name,
+        pairs,
+        distance,
+        detour,
+        dict(zip(paces, jump.T, strict=True)),
+        dict(zip(paces, judged_jump.T, strict=True)),
+        hue_excursion,
+        dict(zip(REALISM, realism.T, strict=True)),
+        others,
+    )
+
+
+class _Row(NamedTuple):
+    distance: float
+    detour: float
+    jump: list[float]
+    judged_jump: list[float]
+    hue_excursion: float
+    realism: list[float]
+    others: float
+
+
+class _Measured(NamedTuple):
+    """The measured materials as `REALISM` sees them."""
+
+    by_solid_angle: Float32[np.ndarray, "N n_features"]
+    by_cell: Float32[np.ndarray, "N n_features"]
+    seen: Float32[np.ndarray, "N n_pixels 3"]
+
+    @classmethod
+    def of(cls, bench: Bench) -> "_Measured":
+        alone = np.broadcast_to(
+            np.eye(len(bench.samples.names)), (3, *[len(bench.samples.names)] * 2)
+        )
+        return cls(*_looks(bench, alone))
+
+    def nearest(self, bench: Bench, weights: Float64[np.ndarray, "3 1 N"]) -> list[float]:
+        """The difference of a recipe from the nearest of the materials, each way."""
+        by_solid_angle, by_cell, seen = _looks(bench, weights)
+        return [
+            float(np.linalg.norm(self.by_solid_angle - by_solid_angle, axis=1).min()),
+            float(np.linalg.norm(self.by_cell - by_cell, axis=1).min()),
+            float(np.min(cielab_difference(self.seen, seen))),
+        ]
+
+
+def _looks(
+    bench: Bench, weights: Float64[np.ndarray, "3 n N"]
+) -> tuple[
+    Float32[np.ndarray, "n n_features"],
+    Float32[np.ndarray, "n n_features"],
+    Float32[np.ndarray, "n n_pixels 3"],
+]:
+    values = bench.samples.mix(weights)
+    return (
+        bench.samples.features(values),
+        bench.samples.features(values, by="cell"),
+        appearance(bench.judging.mix(weights)),
+    )
+
+
+def _measure(
+    space: Space,
+    bench: Bench,
+    measured: _Measured,
+    paces: Sequence[Pace],
+    pair: Int[np.ndarray, " 2"],
+) -> _Row:
+    leg = space.leg(*map(int, pair))
+    evenly = _weights(leg, np.linspace(0, 1, N_STEPS))
+    middle = _weights(leg, np.array([0.5]))
+    pictures = appearance(bench.pacing.mix(evenly))
+    distance = float(cielab_difference(pictures[0], pictures[-1]))
+    length = float(cielab_difference(pictures[1:], pictures[:-1]).sum())
+    return _Row(
+        distance,
+        length / distance if distance else np.nan,
+        *_jumps(bench, leg, paces),
+        _hue_excursion(bench.samples.body_colour(evenly)),
+        measured.nearest(bench, middle),
+        1.0 - float(middle[:, 0, pair].sum()) / 3,
+    )
+
+
+def _weights(leg: Leg, t: Float64[np.ndarray, " n"]) -> Float64[np.ndarray, "3 n N"]:
+    return interpolate(t, leg.knots, leg.weights)
+
+
+def _jumps(bench: Bench, leg: Leg, paces: Sequence[Pace]) -> tuple[list[float], list[float]]:
+    jumps, judged = [], []
+    for pace in paces:
+        weights = _weights(leg, pace(leg, N_STEPS))
+        seen, judge = (appearance(images.mix(weights)) for images in (bench.pacing, bench.judging))
+        jumps.append(_jump(cielab_difference(seen[1:], seen[:-1])))
+        judged.append(_jump(ciede2000_difference(judge[1:], judge[:-1])))
+    return jumps, judged
+
+
+def _jump(steps: Means) -> float:
+    mean = float(steps.mean())
+    return float(steps.max()) / mean if mean else np.nan
+
+
+def _hue_excursion(body: Float64[np.ndarray, "n_steps 3"]) -> float:
+    """The largest distance in (a*, b*) from the curve of the ends' linear mixes; a white matte body is white."""
+    t = np.linspace(0, 1, 201)[:, None]
+    plain = (1 - t) * body[0] + t * body[-1]
+    colours, way = (to_lab(shown(np.pi * x))[:, 1:] for x in (body, plain))
+    return float(_distance_to_polyline(colours, way).max())
+
+
+def _distance_to_polyline(
+    points: Float64[np.ndarray, "n 2"], line: Float64[np.ndarray, "m 2"]
+) -> Float64[np.ndarray, " n"]:
+    start, along = line[:-1], np.diff(line, axis=0)
+    from_start = points[:, None] - start
+    square = np.maximum((along**2).sum(axis=-1), np.finfo(np.float64).tiny)
+    share = np.clip((from_start * along).sum(axis=-1) / square, 0, 1)
+    return np.linalg.norm(from_start - share[..., None] * along, axis=-1).min(axis=1)
+
+
+def _spread(values: Float64[np.ndarray, " n"]) -> dict[str, float]:
+    if not len(values):
+        return {}
+    median, high = np.nanquantile(values, [0.5, 0.9])
+    return {
+        "median": float(median),
+        "90th percentile": float(high),
+        "max": float(np.nanmax(values)),
+    }

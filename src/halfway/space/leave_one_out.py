@@ -1,0 +1,138 @@
+"""How well a space places a material that it does not have.
+
+Each material is taken out, placed at its own coordinates in the space of the others, or at the nearest point of their
+hull, and mixed there. The error is the difference of that mix from the material's own table. A space with small errors
+puts materials where its mixes look like them.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import partial
+from typing import Any, NamedTuple
+
+import numpy as np
+from jaxtyping import Float64
+from scipy.optimize import nnls
+
+from .._types import Points
+from ..brdf.image_metrics import appearance, cielab_difference
+from ..brdf.metrics import MAPPINGS
+from ..errors import OutsideHullError
+from ..library import Pca
+from ..tasks import Track, run, silent
+from .evaluation import Bench
+from .triangulation import Triangulation
+
+Place = Callable[[int], Float64[np.ndarray, "3 N"]]
+"""The weights over all materials where material i stands in the space of the others; its own weight is 0."""
+
+
+@dataclass(frozen=True, eq=False)
+class LeaveOneOut:
+    """Errors of a space, one value per material in the library's order."""
+
+    space: str
+    names: tuple[str, ...]
+    errors: Mapping[str, Float64[np.ndarray, " N"]]
+    """By metric: those of `halfway.brdf.metrics`, "log by cell", and "seen", mean CIELAB in the judging scene."""
+
+    def to_json(self) -> dict[str, Any]:
+        """Mean and median error over the materials, and the worst material, by metric."""
+        return {"space": self.space} | {
+            metric: {
+                "mean": float(errors.mean()),
+                "median": float(np.median(errors)),
+                "max": float(errors.max()),
+                "worst": self.names[int(errors.argmax())],
+            }
+            for metric, errors in self.errors.items()
+        }
+
+
+def leave_one_out(name: str, place: Place, bench: Bench, *, track: Track = silent) -> LeaveOneOut:
+    """The errors of the space called ``name``, which places material i at ``place(i)``."""
+    names = bench.samples.names
+    measure = partial(_errors, place, bench)
+    rows = list(run(measure, range(len(names)), label=f"Leaving one out of {name}", track=track))
+    return LeaveOneOut(name, names, {key: np.array([row[key] for row in rows]) for key in rows[0]})
+
+
+@dataclass(frozen=True, eq=False)
+class PaperPlace:
+    """Where the paper's space of the others puts a material: their PCA, the material's scores in it, per channel.
+
+    The Gram matrix ``U_ab = u_a . u_b`` of all materials holds what is needed. About the centroid of the others S it is
+
+        U'_ab = U_ab - mean_s U_as - mean_s U_sb + mean_st U_st          s, t in S
+
+    whose rows and columns in S have eigenvectors V and eigenvalues L; the material's score on component j is
+    ``sum_s U'_is V_sj / sqrt(L_j)``.
+    """
+
+    pca: Pca
+    n_components: int = 3
+
+    def __call__(self, i: int) -> Float64[np.ndarray, "3 N"]:
+        """The weights over all materials where material ``i`` stands in the space of the others."""
+        others = np.delete(np.arange(len(self.pca.names)), i)
+        weights = np.zeros((3, len(self.pca.names)))
+        for c in range(3):
+            v = self.pca.eigenvectors[c]
+            placed = _project((v * self.pca.eigenvalues[c]) @ v.T, i, others, self.n_components)
+            weights[c, others] = hull_weights(placed.others, placed.own)
+        return weights
+
+
+class _Placed(NamedTuple):
+    others: Points
+    own: Float64[np.ndarray, " k"]
+
+
+def _project(
+    gram: Float64[np.ndarray, "N N"], i: int, others: np.ndarray, n_components: int
+) -> _Placed:
+    means = gram[:, others].mean(axis=1)
+    centred = gram - means - means[:, None] + means[others].mean()
+    eigenvalues, v = np.linalg.eigh(centred[np.ix_(others, others)])
+    kept = slice(None, -n_components - 1, -1)
+    scale = np.sqrt(np.maximum(eigenvalues[kept], 0))
+    own = np.divide(
+        centred[i, others] @ v[:, kept], scale, out=np.zeros_like(scale), where=scale > 0
+    )
+    return _Placed(v[:, kept] * scale, own)
+
+
+def hull_weights(points: Points, x: Float64[np.ndarray, " k"]) -> Float64[np.ndarray, " n_points"]:
+    """Barycentric weights of ``x`` in the Delaunay triangulation of ``points``, or of the nearest point of their hull."""
+    try:
+        return Triangulation.of(points).weights(x)
+    except OutsideHullError:
+        return nearest_in_hull(points, x)
+
+
+def nearest_in_hull(
+    points: Points, x: Float64[np.ndarray, " k"]
+) -> Float64[np.ndarray, " n_points"]:
+    """Weights of the point of the hull of ``points`` that is nearest to ``x``.
+
+    Non-negative least squares of ``sum_j w_j (y_j - x) = 0, sum_j w_j = 1``: whatever the weights sum to, the best sum
+    for a point at distance d leaves ``d^2/(1 + d^2)``, so the least of all is where d is least.
+
+    Reference: P. Wolfe, "Finding the Nearest Point in a Polytope", Mathematical Programming 11, 1976.
+    """
+    towards = points - x
+    scale = np.abs(towards).max(initial=0.0) or 1.0
+    system = np.concatenate([towards.T / scale, np.ones((1, len(points)))])
+    weights, _ = nnls(system, np.append(np.zeros(len(x)), 1.0))
+    return weights / weights.sum()
+
+
+def _errors(place: Place, bench: Bench, i: int) -> dict[str, float]:
+    samples = bench.samples
+    weights = np.stack([np.eye(len(samples.names))[i][None].repeat(3, 0), place(i)], axis=1)
+    values = samples.mix(weights)
+    looks = {metric: samples.features(values, metric) for metric in MAPPINGS}
+    looks["log by cell"] = samples.features(values, by="cell")
+    seen = appearance(bench.judging.mix(weights))
+    errors = {name: float(np.linalg.norm(look[0] - look[1])) for name, look in looks.items()}
+    return errors | {"seen": float(cielab_difference(seen[0], seen[1]))}
