@@ -17,11 +17,10 @@ Pixels are averages over a square of points, those on the sphere; a highlight na
 
 import hashlib
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from jaxtyping import Float, Float32, Float64, Int
-from scipy.sparse import csr_array
 
 from .._types import Directions, Mask
 from ..brdf import hemisphere
@@ -29,6 +28,8 @@ from ..halfdiff import Grid
 
 Angles = Float64[np.ndarray, "..."]
 Indices = Int[np.ndarray, "..."]
+Sparse = Any
+"""A ``scipy.sparse.csr_array``, which is imported when one is made."""
 
 N_SKY_NODES = 32
 """Angles theta_o at which the sky's moments are tabulated, linear between them."""
@@ -113,13 +114,13 @@ class SphereOperator(NamedTuple):
 
     cells: Indices
     """(n_touched,), the cells of the grid that any query touches."""
-    lookup: csr_array
+    lookup: Sparse
     """(n_queries, n_touched), trilinear weights; each row sums to 1."""
-    lights: csr_array
+    lights: Sparse
     """(n_pixels, n_queries), irradiance x cosine / points of the pixel."""
-    moments: csr_array
+    moments: Sparse
     """(n_nodes x 4, n_queries), solid angle x cosine x (1, w) in the point's frame."""
-    sky: csr_array
+    sky: Sparse
     """(n_pixels, n_nodes x 4), the sky at each pixel in terms of the moments."""
 
     @classmethod
@@ -220,7 +221,9 @@ def _viewer(theta_o: Angles) -> Directions:
     return np.stack([np.sin(theta_o), np.zeros_like(theta_o), np.cos(theta_o)], axis=-1)
 
 
-def _lookup(grid: Grid, wi: Directions, wo: Directions) -> tuple[Indices, csr_array]:
+def _lookup(grid: Grid, wi: Directions, wo: Directions) -> tuple[Indices, Sparse]:
+    from scipy.sparse import csr_array
+
     corners = grid.multilinear(wi, wo)
     n_corners, n_queries = corners.cells.shape
     touched = np.zeros(grid.size, bool)
@@ -235,14 +238,14 @@ def _lookup(grid: Grid, wi: Directions, wo: Directions) -> tuple[Indices, csr_ar
     return cells, csr_array(entries, shape=(n_queries, len(cells)))
 
 
-def _light_sums(light: _Queries, rows: Indices, n_queries: int) -> csr_array:
+def _light_sums(light: _Queries, rows: Indices, n_queries: int) -> Sparse:
     share = 1 / np.bincount(rows)
     pixel = rows[light.owner]
     column = np.arange(len(pixel))
     return _sparse(light.weight * share[pixel], pixel, column, (len(share), n_queries))
 
 
-def _moment_sums(moment: _Queries, n_queries: int) -> csr_array:
+def _moment_sums(moment: _Queries, n_queries: int) -> Sparse:
     factors = np.column_stack([np.ones(len(moment.wi)), moment.wi])
     row = 4 * moment.owner[:, None] + np.arange(4)
     # The sky's queries come last.
@@ -251,7 +254,7 @@ def _moment_sums(moment: _Queries, n_queries: int) -> csr_array:
     return _sparse(weight.ravel(), row.ravel(), column.ravel(), (4 * N_SKY_NODES, n_queries))
 
 
-def _sky_sums(sky: Sky, frame: _Frame, rows: Indices, theta_o: Angles) -> csr_array:
+def _sky_sums(sky: Sky, frame: _Frame, rows: Indices, theta_o: Angles) -> Sparse:
     mean, slope = (sky.zenith + sky.nadir) / 2, (sky.zenith - sky.nadir) / 2
     (up,) = frame.to_local([sky.up])
     radiance = np.column_stack([np.full(len(up), mean), slope * up])
@@ -267,5 +270,7 @@ def _sky_sums(sky: Sky, frame: _Frame, rows: Indices, theta_o: Angles) -> csr_ar
     return _sparse(weight.ravel(), row.ravel(), column.ravel(), shape)
 
 
-def _sparse(weight: np.ndarray, row: Indices, column: Indices, shape: tuple[int, int]) -> csr_array:
+def _sparse(weight: np.ndarray, row: Indices, column: Indices, shape: tuple[int, int]) -> Sparse:
+    from scipy.sparse import csr_array
+
     return csr_array((weight.astype(np.float32), (row, column)), shape=shape)
