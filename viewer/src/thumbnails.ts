@@ -8,6 +8,7 @@ import type { Ingredient } from "./recipe";
 export class Thumbnails {
   readonly size: number;
   private readonly byName: ReadonlyMap<string, Float32Array>;
+  private readonly averaged = new Map<string, Float64Array>();
 
   constructor(names: readonly string[], block: Block) {
     const [, size = 0] = block.shape;
@@ -30,14 +31,7 @@ export class Thumbnails {
     const sum = new Float32Array(n);
     for (const { name, weight } of recipe) {
       const part = this.byName.get(name);
-      if (part === undefined) continue;
-      const [r, g, b] = weight;
-      for (let i = 0; i < n; i += 4) {
-        sum[i]! += r * part[i]!;
-        sum[i + 1]! += g * part[i + 1]!;
-        sum[i + 2]! += b * part[i + 2]!;
-        sum[i + 3] = part[i + 3]!;
-      }
+      if (part !== undefined) add(sum, part, weight);
     }
     const bytes = new Uint8ClampedArray(n);
     for (let i = 0; i < n; i += 4) {
@@ -47,6 +41,16 @@ export class Thumbnails {
       bytes[i + 3] = Math.round(255 * this.edge(i / 4) * (sum[i + 3]! > 0 ? 1 : 0));
     }
     return new ImageData(bytes, this.size, this.size);
+  }
+
+  /** The picture of a recipe averaged to `n` x `n` blocks, linear RGB one after another. */
+  blocks(recipe: readonly Ingredient[], n: number): Float64Array {
+    const sum = new Float64Array(3 * n * n);
+    for (const { name, weight } of recipe) {
+      const part = this.blocksOf(name, n);
+      for (let i = 0; i < sum.length; i++) sum[i]! += weight[i % 3]! * part[i]!;
+    }
+    return sum;
   }
 
   of(name: string): ImageData {
@@ -62,11 +66,35 @@ export class Thumbnails {
     return canvas;
   }
 
+  private blocksOf(name: string, n: number): Float64Array {
+    const known = this.averaged.get(name);
+    if (known !== undefined) return known;
+    const picture = this.byName.get(name);
+    const blocks = new Float64Array(3 * n * n);
+    const share = (n / this.size) ** 2;
+    for (let pixel = 0; picture !== undefined && pixel < this.size * this.size; pixel++) {
+      const x = Math.floor(((pixel % this.size) * n) / this.size);
+      const y = Math.floor((Math.floor(pixel / this.size) * n) / this.size);
+      for (let c = 0; c < 3; c++) blocks[3 * (y * n + x) + c]! += share * picture[4 * pixel + c]!;
+    }
+    this.averaged.set(name, blocks);
+    return blocks;
+  }
+
   /** Coverage of a pixel by the disc that touches all four sides. */
   private edge(pixel: number): number {
     const r = this.size / 2;
     const x = (pixel % this.size) + 0.5 - r;
     const y = Math.floor(pixel / this.size) + 0.5 - r;
     return Math.min(Math.max(r - Math.hypot(x, y), 0), 1);
+  }
+}
+
+function add(sum: Float32Array, part: Float32Array, [r, g, b]: Ingredient["weight"]): void {
+  for (let i = 0; i < sum.length; i += 4) {
+    sum[i]! += r * part[i]!;
+    sum[i + 1]! += g * part[i + 1]!;
+    sum[i + 2]! += b * part[i + 2]!;
+    sum[i + 3] = part[i + 3]!;
   }
 }

@@ -1,10 +1,19 @@
 // The space: where each material is, what is between them, and the route.
 
+import type { Vector3 } from "three";
+
+import type { Embedding } from "../api/schema";
 import { el, onResize, segments, style } from "../dom";
 import type { Context } from "../main";
-import { CHANNELS, type Ingredient, recipeAt } from "../recipe";
+import { recipeAt } from "../recipe";
+import { Appearance } from "../render/appearance";
 import { Cloud } from "../render/cloud";
+import { Scores, weightIn } from "../render/display";
 
+type Map = typeof APPEARANCE | Embedding["channel"];
+
+const APPEARANCE = "appearance";
+const TITLES = { r: "R", g: "G", b: "B", all: "Scores" } as const;
 const ROUTE_POINTS = 160;
 /** A pointer that moved less between down and up was a click, in CSS pixels. */
 const STILL = 4;
@@ -21,24 +30,17 @@ export function spaceView(context: Context): HTMLElement {
   });
   const labels = el("div.labels", { "aria-hidden": "true" });
   const note = el("span.note");
-  const channels = segments<string>(
-    "Channel",
-    CHANNELS.map((channel) => [channel, channel.toUpperCase()] as const),
-    (channel) => {
-      shown = channel;
-      embed();
-    },
-  );
+  const maps = el("div.maps");
   const panel = el(
     "section.panel.space",
     { "aria-label": "Space" },
     {},
     canvas,
     labels,
-    el("div.overlay.top", {}, {}, el("h2", {}, {}, "Space"), channels.element),
+    el("div.overlay.top", {}, {}, el("h2", {}, {}, "Space"), maps),
     el("div.overlay.bottom", {}, {}, note),
   );
-  let shown = "r";
+  let shown: Map = APPEARANCE;
   let cloud: Cloud;
   try {
     cloud = new Cloud(canvas, names, thumbnails, () => draw());
@@ -50,42 +52,51 @@ export function spaceView(context: Context): HTMLElement {
     return panel;
   }
 
-  const embedding = () => {
+  const appearance = new Appearance(names, thumbnails);
+  const embedding = () => store.get().view?.embeddings.find(({ channel }) => channel === shown);
+  const offer = () => {
     const embeddings = store.get().view?.embeddings ?? [];
-    return embeddings.find(({ channel }) => channel === shown) ?? embeddings[0];
+    const options = [
+      [APPEARANCE, "Looks"],
+      ...embeddings.map(({ channel }) => [channel, TITLES[channel]] as const),
+    ] as const;
+    if (!options.some(([map]) => map === shown)) shown = APPEARANCE;
+    const choice = segments<Map>("Map", options, (map) => {
+      shown = map;
+      choice.mark(map);
+      arrange();
+    });
+    choice.mark(shown);
+    maps.replaceChildren(choice.element);
+    arrange();
   };
-  const weightsOf = (recipe: readonly Ingredient[]) => {
-    const channel = CHANNELS.indexOf(embedding()?.channel as "r");
-    return recipe.map(
-      ({ name, weight: [r, g, b] }) =>
-        [indices.get(name)!, channel < 0 ? (r + g + b) / 3 : [r, g, b][channel]!] as const,
-    );
-  };
-  const embed = () => {
+  const arrange = () => {
     const current = embedding();
-    if (current === undefined) return;
-    const single = store.get().view!.embeddings.length === 1;
-    channels.element.hidden = single;
-    channels.mark(current.channel);
-    note.textContent = `${current.axes.join(", ")}, on quantile scales`;
-    cloud.embed(current);
+    note.textContent = current ? `${current.axes.join(", ")}; quantile scales` : "near: looks alike";
+    cloud.arrange(current ? new Scores(current, names) : appearance, current?.edges ?? []);
     traceRoute();
     place();
   };
   const traceRoute = () => {
     const { route } = store.get();
-    if (route === null || cloud.display === null) return;
-    const display = cloud.display;
-    const ts = [
-      ...new Set([...route.knots, ...Array.from({ length: ROUTE_POINTS + 1 }, (_, i) => i / ROUTE_POINTS)]),
-    ].sort((a, b) => a - b);
-    cloud.setRoute(ts.map((t) => display.mix(weightsOf(recipeAt(route, t)))));
+    const { placement } = cloud;
+    if (route === null || placement === null) return;
+    const even = Array.from({ length: ROUTE_POINTS + 1 }, (_, i) => i / ROUTE_POINTS);
+    const ts = [...new Set([...route.knots, ...even])].sort((a, b) => a - b);
+    cloud.setRoute(ts.map((t) => placement.place(recipeAt(route, t))));
     draw();
   };
   const place = () => {
-    if (cloud.display === null) return;
-    const corners = weightsOf(store.get().recipe).filter(([, weight]) => weight > 0);
-    cloud.setSimplex(corners.map(([i]) => cloud.display!.points[i]!));
+    const { placement } = cloud;
+    const { recipe } = store.get();
+    if (placement === null || recipe.length === 0) return;
+    const current = embedding();
+    const corners = recipe
+      .filter((ingredient) => current === undefined || weightIn(ingredient, current.channel) > 0)
+      .map(({ name }) => placement.points[indices.get(name)!]!);
+    here3d = placement.place(recipe);
+    // In a space the simplex; among looks, what the material is made of.
+    cloud.setIngredients(current ? pairs(corners) : corners.map((corner) => [here3d!, corner] as const));
     draw();
   };
   const dress = () => {
@@ -116,12 +127,13 @@ export function spaceView(context: Context): HTMLElement {
     });
   };
   const here = el("div.here");
+  let here3d: Vector3 | null = null;
   const placeLabels = () => {
-    const { stops, hovered, recipe } = store.get();
-    if (cloud.display === null) return;
+    const { stops, hovered } = store.get();
+    if (cloud.placement === null) return;
     const shownNames = [...new Set([...(hovered ? [hovered] : []), ...stops])];
     const items = shownNames.map((name) => {
-      const point = cloud.display!.points[indices.get(name)!]!;
+      const point = cloud.placement!.points[indices.get(name)!]!;
       const { x, y } = cloud.project(point);
       const label = el(name === hovered ? "div.label.hovered" : "div.label", {}, {}, name);
       const gap = cloud.radius(point) * 1.5 + 5;
@@ -129,8 +141,8 @@ export function spaceView(context: Context): HTMLElement {
       label.style.transform = `translate(${x}px, ${y}px) translate(${aside}, -50%)`;
       return label;
     });
-    if (recipe.length) {
-      const { x, y } = cloud.project(cloud.display.mix(weightsOf(recipe)));
+    if (here3d !== null) {
+      const { x, y } = cloud.project(here3d);
       here.style.transform = `translate(${x}px, ${y}px) translate(-50%, -50%)`;
       labels.replaceChildren(here, ...items);
     } else labels.replaceChildren(...items);
@@ -156,7 +168,7 @@ export function spaceView(context: Context): HTMLElement {
   });
   document.addEventListener("themechange", paint);
   paint();
-  store.watch(({ view }) => view, embed);
+  store.watch(({ view }) => view, offer);
   store.watch(({ route }) => route, traceRoute);
   store.watch(({ recipe }) => recipe, place);
   store.watch(({ stops, hovered, found }) => [stops, hovered, found], dress);
@@ -182,4 +194,9 @@ function listenToPointer(canvas: HTMLCanvasElement, { hover, leave, click }: Poi
     if (down && Math.hypot(offsetX - down.x, offsetY - down.y) < STILL) click(offsetX, offsetY);
     down = null;
   });
+}
+
+/** Each two of them. */
+function pairs<T>(items: readonly T[]): (readonly [T, T])[] {
+  return items.flatMap((a, i) => items.slice(i + 1).map((b) => [a, b] as const));
 }

@@ -24,9 +24,8 @@ import { Line2 } from "three/addons/lines/Line2.js";
 import { LineGeometry } from "three/addons/lines/LineGeometry.js";
 import { LineMaterial } from "three/addons/lines/LineMaterial.js";
 
-import type { Embedding } from "../api/schema";
 import type { Thumbnails } from "../thumbnails";
-import { Display } from "./display";
+import type { Placement } from "./display";
 import fragment from "./glsl/cloud.frag.glsl?raw";
 import vertex from "./glsl/cloud.vert.glsl?raw";
 
@@ -41,7 +40,7 @@ const PIXELS = 26;
 export class Cloud {
   readonly camera = new PerspectiveCamera(32, 1, 0.1, 50);
   readonly controls: OrbitControls;
-  display: Display | null = null;
+  placement: Placement | null = null;
   private readonly renderer: WebGLRenderer;
   private readonly scene = new Scene();
   private readonly points: Points<BufferGeometry, RawShaderMaterial>;
@@ -55,7 +54,13 @@ export class Cloud {
   );
   private readonly route = new Line2(
     new LineGeometry(),
-    new LineMaterial({ linewidth: 2.5, worldUnits: false, depthTest: true }),
+    new LineMaterial({
+      linewidth: 2.5,
+      worldUnits: false,
+      depthTest: false,
+      transparent: true,
+      opacity: 0.9,
+    }),
   );
   private readonly size = new Vector2(1, 1);
   private ratio = 1;
@@ -68,7 +73,7 @@ export class Cloud {
   ) {
     this.renderer = new WebGLRenderer({ canvas, alpha: true, antialias: true });
     this.camera.up.set(0, 0, 1);
-    this.camera.position.set(2.4, -4.6, 1.9);
+    this.camera.position.set(1.2, -5.3, 0.7);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.enableDamping = false;
     this.controls.minDistance = 0.6;
@@ -103,24 +108,30 @@ export class Cloud {
     for (const object of [this.points, this.edges, this.simplex, this.route]) object.frustumCulled = false;
     this.edges.renderOrder = -2;
     this.simplex.renderOrder = -1;
+    this.route.renderOrder = 1;
     this.scene.add(this.edges, this.simplex, this.route, this.points);
     this.route.visible = false;
   }
 
-  embed(embedding: Embedding): void {
-    this.display = new Display(embedding);
-    const positions = this.display.points.flatMap((p) => p.toArray());
+  /** Put the materials where `placement` says, with the edges of a triangulation between them. */
+  arrange(placement: Placement, edges: readonly (readonly [number, number])[]): void {
+    this.placement = placement;
+    const positions = placement.points.flatMap((p) => p.toArray());
     this.points.geometry.setAttribute("position", new BufferAttribute(new Float32Array(positions), 3));
-    this.edges.geometry.dispose();
-    this.edges.geometry = segments(
-      embedding.edges.map(([a, b]) => [this.display!.points[a]!, this.display!.points[b]!] as const),
+    this.setLines(
+      this.edges,
+      edges.map(([a, b]) => [placement.points[a]!, placement.points[b]!] as const),
     );
   }
 
-  setSimplex(corners: readonly Vector3[]): void {
-    const pairs = corners.flatMap((a, i) => corners.slice(i + 1).map((b) => [a, b] as const));
-    this.simplex.geometry.dispose();
-    this.simplex.geometry = segments(pairs);
+  /** Lines from the present material to what it is made of, or between those. */
+  setIngredients(pairs: readonly (readonly [Vector3, Vector3])[]): void {
+    this.setLines(this.simplex, pairs);
+  }
+
+  private setLines(lines: LineSegments, pairs: readonly (readonly [Vector3, Vector3])[]): void {
+    lines.geometry.dispose();
+    lines.geometry = segments(pairs);
   }
 
   setRoute(points: readonly Vector3[]): void {
@@ -190,9 +201,9 @@ export class Cloud {
 
   /** The material at a place of the panel, in CSS pixels; null beside all of them. */
   pick(x: number, y: number): number | null {
-    if (this.display === null) return null;
+    if (this.placement === null) return null;
     let best: { i: number; depth: number } | null = null;
-    this.display.points.forEach((point, i) => {
+    this.placement.points.forEach((point, i) => {
       const at = this.project(point);
       const radius = this.radius(point) + 2;
       if (Math.hypot(at.x - x, at.y - y) > radius || at.depth > 1) return;

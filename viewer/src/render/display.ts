@@ -1,38 +1,80 @@
-// From the coordinates of a space to where they are drawn: each axis stretched so that the materials spread evenly.
+// From the coordinates of a space to where they are drawn.
 //
-// Scores are ruled by the highlight and span five decades; a plain plot is one heap and a few points far away. An axis is
-// drawn on the scale of its quantiles, smooth between them: the order along each axis is kept, distances are not.
+// Scores are ruled by the highlight and span five decades; a plain plot is one heap and a few points far away. So each axis is
+// drawn on the scale of its quantiles, smooth between them: the order along it is kept, distances are not. The cloud is then
+// turned so that its longest way is upright and its next longest from left to right.
 
-import { Vector3 } from "three";
+import { Matrix3, Vector3 } from "three";
 
 import type { Embedding } from "../api/schema";
+import { CHANNELS, type Ingredient, meanWeight } from "../recipe";
+import { principalAxes } from "./axes";
+
+/** Where materials and recipes are drawn. */
+export interface Placement {
+  /** Of the materials, in the library's order, around the origin. */
+  readonly points: readonly Vector3[];
+  readonly place: (recipe: readonly Ingredient[]) => Vector3;
+}
 
 const MAX_QUANTILES = 13;
+/** Of the longest way of the cloud from its middle. */
+const RADIUS = 1.35;
 
-export class Display {
+export class Scores implements Placement {
   readonly points: readonly Vector3[];
   private readonly scales: readonly ((x: number) => number)[];
+  private readonly centre = new Vector3();
+  private readonly turn = new Matrix3();
 
-  constructor(readonly embedding: Embedding) {
+  private readonly indices: ReadonlyMap<string, number>;
+
+  constructor(
+    private readonly embedding: Embedding,
+    names: readonly string[],
+  ) {
+    this.indices = new Map(names.map((name, i) => [name, i]));
     this.scales = embedding.axes.map((_, axis) =>
       quantileScale(embedding.points.map((point) => point[axis]!)),
     );
-    this.points = embedding.points.map((point) => this.place(point));
+    const stretched = embedding.points.map((point) => this.stretch(point));
+    for (const point of stretched) this.centre.addScaledVector(point, 1 / stretched.length);
+    const centred = stretched.map((point) => point.clone().sub(this.centre));
+    const axes = principalAxes(centred);
+    const spread = axes.map((axis) => Math.max(...centred.map((point) => Math.abs(point.dot(axis))), 1e-6));
+    const [upright, across, away] = axes.map((axis, i) =>
+      // Half way to a ball: a cloud like a needle would leave the panel empty.
+      axis.clone().multiplyScalar(RADIUS / Math.sqrt(spread[0]! * spread[i]!)),
+    );
+    this.turn.set(...across!.toArray(), ...away!.toArray(), ...upright!.toArray());
+    this.points = stretched.map((point) => this.toView(point));
   }
 
-  /** Where a point of the space is drawn, within [-1, 1]. */
-  place(point: readonly number[]): Vector3 {
+  /** The point of a mix is the mix of the points, in each channel. */
+  place(recipe: readonly Ingredient[]): Vector3 {
+    const { axes, points, channel } = this.embedding;
+    const sum = axes.map((_, axis) =>
+      recipe.reduce((total, ingredient) => {
+        const point = points[this.indices.get(ingredient.name) ?? 0]!;
+        return total + weightIn(ingredient, channel) * point[axis]!;
+      }, 0),
+    );
+    return this.toView(this.stretch(sum));
+  }
+
+  private stretch(point: readonly number[]): Vector3 {
     const [x = 0, y = 0, z = 0] = point.map((value, axis) => this.scales[axis]!(value));
     return new Vector3(x, y, z);
   }
 
-  /** The point of a mix is the mix of the points. */
-  mix(weights: readonly (readonly [number, number])[]): Vector3 {
-    const sum = this.embedding.axes.map((_, axis) =>
-      weights.reduce((total, [i, weight]) => total + weight * this.embedding.points[i]![axis]!, 0),
-    );
-    return this.place(sum);
+  private toView(point: Vector3): Vector3 {
+    return point.clone().sub(this.centre).applyMatrix3(this.turn);
   }
+}
+
+/** The weight in one channel, or the mean of all. */
+export function weightIn(ingredient: Ingredient, channel: Embedding["channel"]): number {
+  return channel === "all" ? meanWeight(ingredient) : ingredient.weight[CHANNELS.indexOf(channel)]!;
 }
 
 /** A monotone map that takes the quantiles of the values to even steps from -1 to 1. */
