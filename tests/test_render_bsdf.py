@@ -126,8 +126,9 @@ def test_a_direction_below_the_horizon_reflects_nothing():
 
 @pytest.mark.parametrize("view", VIEWS)
 @pytest.mark.parametrize("brdf", [MATTE, PLASTIC, METAL, MIRROR, BLACK], ids=lambda b: b.name)
-def test_samples_follow_their_density(brdf, view):
+def test_samples_follow_their_density(brdf, view, tmp_path, monkeypatch):
     """Mitsuba's chi-square test. A black table has no weights to keep, so its samples are taken as they are."""
+    monkeypatch.chdir(tmp_path)  # where a failing test leaves its density
     bsdf = in_mitsuba(brdf)
     ctx = mi.BSDFContext()
 

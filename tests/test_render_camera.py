@@ -33,7 +33,7 @@ def test_the_camera_looks_at_its_target_with_z_up():
 
 
 def test_the_window_of_known_points():
-    """At distance 10 the shorter side of this camera's picture is 2 wide."""
+    """At distance 10 this camera must see a square of side 2."""
     points = np.array([[-0.5, 0, -0.25], [0.5, 0, 0.25]])
     assert window(CAMERA, (200, 100), points, margin=0) == (75, 37, 50, 26)
     assert window(CAMERA, (100, 200), points, margin=0) == (25, 87, 50, 26)

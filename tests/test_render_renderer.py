@@ -8,7 +8,12 @@ from halfway.brdf import TabularBrdf
 from halfway.errors import RenderError
 from halfway.halfdiff import Grid
 from halfway.render import SCENES, Renderer
-from halfway.render.studio import directions, studio
+from halfway.render.studio import (
+    _on_the_ground,
+    as_bright_as_the_studio,
+    directions,
+    studio,
+)
 
 GRID = Grid.merl(12, 10, 12)
 
@@ -136,3 +141,10 @@ def test_the_middle_of_an_environment_looks_away_from_the_camera():
     assert_allclose(d[32, 64], [0, 1, 0], atol=0.05)
     assert_allclose(d[32, 96], [1, 0, 0], atol=0.05)
     assert_allclose(d[0, 0], [0, 0, 1], atol=0.05)
+
+
+def test_an_environment_lights_the_ground_as_the_studio_does():
+    """A sky of radiance 1 lights the ground with pi."""
+    sky = np.ones((32, 64, 3), np.float32)
+    assert_allclose(_on_the_ground(sky), np.pi, rtol=0.01)
+    assert_allclose(_on_the_ground(as_bright_as_the_studio(7 * sky)), _on_the_ground(studio(64)))

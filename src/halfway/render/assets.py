@@ -35,7 +35,8 @@ def read_mesh(path: Path) -> Mesh:
     return outward(positions, normals, faces)
 
 
-def read_environment(path: Path) -> Any:
+def read_environment(path: Path) -> np.ndarray:
+    """Radiance of a latitude-longitude picture, float32, shape (height, width, 3), linear RGB."""
     _require_file(path, "environment", (".hdr", ".exr"))
     try:
         bitmap = mi.Bitmap(str(path)).convert(
@@ -49,7 +50,7 @@ def read_environment(path: Path) -> Any:
             f"The environment {path} has radiance from {radiance.min()} to {radiance.max()}: "
             "expected finite values, some above 0."
         )
-    return bitmap
+    return radiance
 
 
 def _require_file(path: Path, what: str, suffixes: tuple[str, ...]) -> str:

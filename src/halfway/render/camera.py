@@ -28,12 +28,18 @@ def camera_to_world(camera: Camera) -> np.ndarray:
     return matrix
 
 
+def fov_degrees(camera: Camera, size: tuple[int, int]) -> float:
+    """The field of view across the width of a picture of this size that shows all that must be seen."""
+    half_width = np.tan(np.radians(camera.fov_degrees) / 2)
+    wider = max(1.0, size[0] / size[1] / camera.aspect)
+    return float(np.degrees(2 * np.arctan(half_width * wider)))
+
+
 def window(camera: Camera, size: tuple[int, int], points: np.ndarray, *, margin: int = 2) -> Window:
     """The part of the frame that ``points``, shape (n, 3), fill, and ``margin`` pixels around; never empty."""
     matrix = camera_to_world(camera)
     left, up, forward = ((points - matrix[:3, 3]) @ matrix[:3, :3]).T
-    half = np.tan(np.radians(camera.fov_degrees) / 2)
-    pixels_per_unit = min(size) / 2 / half
+    pixels_per_unit = size[0] / 2 / np.tan(np.radians(fov_degrees(camera, size)) / 2)
     if (forward <= 0).any():  # something is beside or behind the camera
         return Window(0, 0, *size)
     x = size[0] / 2 - pixels_per_unit * left / forward

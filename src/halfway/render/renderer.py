@@ -58,7 +58,7 @@ class Renderer:
     env : path, optional
         Environment in place of the studio: latitude-longitude, ``.hdr`` or ``.exr``, up is up.
     mesh : path, optional
-        Object in place of the scene's teapot (of its sphere where it has none): ``.ply`` or ``.obj``, y up.
+        In place of every object of the scene: ``.ply`` or ``.obj``, y up.
     bounces : int, optional
         Of light between surfaces, in place of the scene's own.
     denoise : bool

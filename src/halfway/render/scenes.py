@@ -38,7 +38,9 @@ class Camera:
     at: Vector
     target: Vector
     fov_degrees: float
-    """Of the shorter side of the picture."""
+    """Of the width of what must be seen."""
+    aspect: float = 1.0
+    """Width by height of what must be seen: a picture of another shape shows more at its sides or above and below."""
 
 
 @dataclass(frozen=True)
@@ -64,9 +66,9 @@ class Scene:
 
 
 _KEY, _FILL, _BACK = (
-    PointLight((-4.0, -5.0, 6.0), 150.0),
-    PointLight((5.5, -4.0, 2.5), 45.0),
-    PointLight((1.5, 4.5, 5.0), 110.0),
+    PointLight((-4.0, -5.0, 6.0), 220.0),
+    PointLight((5.5, -4.0, 2.0), 60.0),
+    PointLight((4.5, 3.0, 5.0), 110.0),
 )
 
 SCENES = {
@@ -76,7 +78,7 @@ SCENES = {
             "teapot",
             "the Utah teapot in a studio of soft boxes",
             (Placed("teapot", height=3.15, turn_degrees=-28.0),),
-            Camera((0.15, -13.0, 5.4), (0.12, 0.0, 1.4), 29.0),
+            Camera((0.15, -13.0, 5.4), (0.12, 0.0, 1.4), 29.0, 1.3),
             ground=True,
         ),
         Scene(
@@ -97,11 +99,11 @@ SCENES = {
             "trio",
             "three objects in three materials on a ground, with the light between them",
             (
-                Placed("teapot", at=(0.0, 0.4, 0.0), height=2.4, turn_degrees=-28.0, material=1),
-                Placed("sphere", at=(-2.75, -0.9, 0.0), height=1.7, material=0),
-                Placed("sphere", at=(2.6, -1.3, 0.0), height=1.7, material=2),
+                Placed("sphere", at=(-3.1, -0.6, 0.0), height=2.0, turn_degrees=20.0, material=0),
+                Placed("teapot", at=(0.0, 0.9, 0.0), height=2.35, turn_degrees=-28.0, material=1),
+                Placed("sphere", at=(3.1, -0.6, 0.0), height=2.0, turn_degrees=-40.0, material=2),
             ),
-            Camera((0.0, -13.0, 4.6), (0.0, 0.0, 1.0), 30.0),
+            Camera((0.0, -14.0, 5.2), (0.0, 0.0, 0.9), 37.0, 1.7),
             ground=True,
             bounces=5,
         ),

@@ -13,12 +13,12 @@ from ..brdf import TabularBrdf
 from ..halfdiff import Grid
 from . import bsdf as tables_in_mitsuba
 from .assets import read_environment, read_mesh
-from .camera import Window, camera_to_world, window
+from .camera import Window, camera_to_world, fov_degrees, window
 from .exposure import Exposure, Layer
 from .mesh import Mesh, placed, sweep
 from .sampling import buffer
 from .scenes import Camera, Placed, PointLight, Scene
-from .studio import studio
+from .studio import as_bright_as_the_studio, studio
 from .teapot import tessellate
 
 PAPER = 0.42
@@ -37,7 +37,7 @@ class Stage:
         self._lights = _lights(scene, env)
         self._grids: list[Grid] = []
         self._bsdfs: list[Any] = []
-        self._scenes: dict[bool, Any] = {}
+        self._scenes: dict[bool, list[Any]] = {}
 
     def objects(self, tables: list[TabularBrdf], exposure: Exposure) -> Layer:
         """The objects under direct light. No light leaves the frame around them, so no more of it is rendered."""
@@ -70,22 +70,23 @@ class Stage:
             parameters["table"] = buffer(tables_in_mitsuba.pack(table))
             parameters.update()
 
-    def _dressed(self, *, ground: bool) -> Any:
+    def _dressed(self, *, ground: bool) -> list[Any]:
         if ground not in self._scenes:
             self._scenes[ground] = self._load(self._bsdfs, ground=ground)
         return self._scenes[ground]
 
-    def _load(self, bsdfs: list[Any], *, ground: bool) -> Any:
+    def _load(self, bsdfs: list[Any], *, ground: bool) -> list[Any]:
+        """One scene for each light: their pictures add up, and no sample goes to choosing between lights."""
         window = None if ground else self._window()
         sensor = _sensor(self._scene.camera, self._size, window)
-        description: dict[str, Any] = {"type": "scene", "sensor": sensor, **self._lights}
+        description: dict[str, Any] = {"type": "scene", "sensor": sensor}
         for i, (place, mesh) in enumerate(zip(self._scene.objects, self._meshes, strict=True)):
             description[f"object_{i}"] = _shape(place, mesh, bsdfs[place.material])
         if ground:
             paper = {"type": "diffuse", "reflectance": PAPER}
             bsdf = mi.load_dict({"type": "twosided", "bsdf": paper})
             description["ground"] = _mesh("ground", sweep(), bsdf)
-        return mi.load_dict(description)
+        return [mi.load_dict({**description, "light": light}) for light in self._lights]
 
     def _window(self) -> Window:
         corners = [
@@ -100,39 +101,38 @@ def _direct() -> dict[str, Any]:
 
 
 def _photograph(
-    scene: Any, integrator: dict[str, Any], exposure: Exposure, size: tuple[int, int]
+    scenes: list[Any], integrator: dict[str, Any], exposure: Exposure, size: tuple[int, int]
 ) -> Layer:
-    """The layer of a scene in the frame of ``size``; around the sensor's window it is empty."""
+    """The layer of scenes that differ in their light, in the frame of ``size``; empty around the sensor's window."""
     if exposure.guides:
         aovs = "albedo:albedo,normal:sh_normal"
         integrator = {"type": "aov", "aovs": aovs, "inner": integrator}
     photographer = mi.load_dict(integrator)
-    film = scene.sensors()[0].film()
+    film = scenes[0].sensors()[0].film()
     (x, y), (width, height) = (tuple(map(int, v)) for v in (film.crop_offset(), film.crop_size()))
     passes = exposure.passes(width * height)
+    takes = [(seed, scene) for seed in passes.seeds for scene in scenes]
     total = np.zeros((height, width, 10 if exposure.guides else 4), np.float32)
-    for i, seed in enumerate(passes.seeds):
+    for done, (seed, scene) in enumerate(takes, start=1):
         image = mi.render(scene, integrator=photographer, spp=passes.spp, seed=mi.UInt32(seed))
         total += np.array(image)
-        exposure.progress(i + 1, len(passes.seeds))
+        exposure.progress(done, len(takes))
+    total /= len(passes.seeds)
+    # Each light's picture has brought the same coverage and guides.
+    total[..., 3:] /= len(scenes)
     frame = np.zeros((size[1], size[0], 10), np.float32)
-    frame[y : y + height, x : x + width, : total.shape[2]] = total / len(passes.seeds)
+    frame[y : y + height, x : x + width, : total.shape[2]] = total
     return Layer(frame[..., :3], frame[..., 3:4], frame[..., 4:7], frame[..., 7:10])
 
 
 def _meshes(scene: Scene, mesh: Path | None) -> list[Mesh | None]:
     """The mesh of each object; None for a sphere, which Mitsuba has itself."""
     own = None if mesh is None else read_mesh(mesh)
-    replaced = "teapot" if any(o.shape == "teapot" for o in scene.objects) else "sphere"
-    shapes: list[Mesh | None] = []
-    for place in scene.objects:
-        if own is not None and place.shape == replaced:
-            shapes.append(placed(own, place))
-        elif place.shape == "teapot":
-            shapes.append(placed(tessellate(), place))
-        else:
-            shapes.append(None)
-    return shapes
+    if own is not None:
+        return [placed(own, place) for place in scene.objects]
+    return [
+        placed(tessellate(), place) if place.shape == "teapot" else None for place in scene.objects
+    ]
 
 
 def _shape(place: Placed, mesh: Mesh | None, bsdf: Any) -> Any:
@@ -157,14 +157,14 @@ def _mesh(name: str, mesh: Mesh, bsdf: Any) -> Any:
     return shape
 
 
-def _lights(scene: Scene, env: Path | None) -> dict[str, Any]:
+def _lights(scene: Scene, env: Path | None) -> list[dict[str, Any]]:
     if scene.points:
-        return {f"light_{i}": _point(light) for i, light in enumerate(scene.points)}
-    bitmap = mi.Bitmap(studio()) if env is None else read_environment(env)
+        return [_point(light) for light in scene.points]
+    bitmap = mi.Bitmap(studio() if env is None else as_bright_as_the_studio(read_environment(env)))
     T = mi.ScalarTransform4f
     # Mitsuba's environments have y up and their middle at +z; ours show +y there.
     to_world = T().rotate([0, 0, 1], 180) @ T().rotate([1, 0, 0], 90)
-    return {"environment": {"type": "envmap", "bitmap": bitmap, "to_world": to_world}}
+    return [{"type": "envmap", "bitmap": bitmap, "to_world": to_world}]
 
 
 def _point(light: PointLight) -> dict[str, Any]:
@@ -200,8 +200,8 @@ def _sensor(camera: Camera, size: tuple[int, int], window: Window | None) -> dic
         }
     return {
         "type": "perspective",
-        "fov": camera.fov_degrees,
-        "fov_axis": "smaller",
+        "fov": fov_degrees(camera, size),
+        "fov_axis": "x",
         "to_world": mi.ScalarTransform4f(camera_to_world(camera)),
         "sampler": {"type": "multijitter"},
         "film": film,

@@ -53,6 +53,20 @@ def studio(height: int = 256) -> np.ndarray:
     return np.repeat(grey[..., None], 3, axis=-1).astype(np.float32)
 
 
+def as_bright_as_the_studio(environment: np.ndarray) -> np.ndarray:
+    """An environment scaled so that it lights the ground as the studio does: files come in units of their own."""
+    scale = _on_the_ground(studio(64)) / max(_on_the_ground(environment), 1e-12)
+    return (environment * scale).astype(np.float32)
+
+
+def _on_the_ground(environment: np.ndarray) -> float:
+    """Irradiance of a horizontal surface from above, the mean of the channels."""
+    height, width = environment.shape[:2]
+    theta = np.pi * (np.arange(height) + 0.5) / height
+    weights = np.maximum(np.cos(theta), 0) * np.sin(theta) * 2 * np.pi**2 / (height * width)
+    return float(np.einsum("h,hwc->", weights, environment.astype(float)) / 3)
+
+
 def directions(height: int) -> np.ndarray:
     """Unit directions of the pixels of a latitude-longitude picture, shape (height, 2 * height, 3)."""
     theta = np.pi * (np.arange(height) + 0.5) / height
