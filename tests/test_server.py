@@ -99,7 +99,7 @@ def test_a_route_is_that_of_the_package(
     client: TestClient, small_library: ProceduralLibrary
 ) -> None:
     stops = ["material-0", "material-4", "material-2"]
-    view = client.get("/api/route", params={"space": "paper", "stop": stops}).json()
+    view = client.get("/api/route", params={"space": "paper", "pace": "uniform", "stop": stops}).json()
     route = Route.through(make_space("paper", small_library), stops)
     used = [small_library.names.index(name) for name in view["names"]]
     assert_allclose(view["knots"], route.knots, rtol=0, atol=0)

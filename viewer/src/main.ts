@@ -84,15 +84,24 @@ function show(
 }
 
 function fetchRoutes({ store, actions }: Context): void {
+  const problem = (error: Error) => error.name !== "AbortError" && store.set({ problem: error.message });
   let running = new AbortController();
   store.watch(
     ({ space, pace, stops }) => [space, pace, stops] as const,
     ([space, pace, stops]) => {
       running.abort();
       running = new AbortController();
-      api.route(space, pace, stops, running.signal).then(actions.setRoute, (error: Error) => {
-        if (error.name !== "AbortError") store.set({ problem: error.message });
-      });
+      api.route(space, pace, stops, running.signal).then(actions.setRoute, problem);
+    },
+  );
+  let other = new AbortController();
+  store.watch(
+    ({ compare, pace, stops }) => [compare, pace, stops] as const,
+    ([compare, pace, stops]) => {
+      other.abort();
+      other = new AbortController();
+      if (compare === "") actions.setOtherRoute(null);
+      else api.route(compare, pace, stops, other.signal).then(actions.setOtherRoute, problem);
     },
   );
 }
@@ -112,11 +121,12 @@ function fetchSpaces({ store }: Context): void {
 function keepLink(store: Store<State>): void {
   let timer = 0;
   store.watch(
-    ({ space, pace, stops, t, shape, light, exposure, orbit }) => [
+    ({ space, pace, stops, t, compare, shape, light, exposure, orbit }) => [
       space,
       pace,
       stops,
       t,
+      compare,
       shape,
       light,
       exposure,

@@ -10,12 +10,14 @@ export function toHash(linked: Linked): string {
     pace: linked.pace,
     stops: linked.stops.join(","),
     t: short(linked.t, 4),
+    compare: linked.compare,
     shape: linked.shape,
     light: linked.light,
     exposure: short(linked.exposure, 2),
     orbit: [azimuth, elevation, zoom].map((x) => short(x, 3)).join(","),
   };
   return `#${Object.entries(fields)
+    .filter(([, value]) => value !== "")
     .map(([key, value]) => `${key}=${encodeURIComponent(value).replaceAll("%2C", ",")}`)
     .join("&")}`;
 }
@@ -42,6 +44,10 @@ export function fromHash(hash: string, library: LibrarySummary): Partial<Linked>
     pace: oneOf("pace", library.paces),
     stops: distinct.length >= 2 ? distinct : undefined,
     t: number("t", 0, 1),
+    compare: oneOf(
+      "compare",
+      library.spaces.map(({ name }) => name),
+    ),
     shape: oneOf("shape", ["sphere", "teapot"] as const),
     light: oneOf("light", ["studio", "points"] as const),
     exposure: number("exposure", -4, 4),

@@ -29,6 +29,12 @@ export interface State {
   readonly view: SpaceView | null;
   readonly route: RouteView | null;
   readonly recipe: readonly Ingredient[];
+  /** The space whose way through the same stops is shown beside; "" for none. */
+  readonly compare: string;
+  readonly otherRoute: RouteView | null;
+  readonly otherRecipe: readonly Ingredient[];
+  /** Where the present material ends and the other begins, from left to right in [0, 1]. */
+  readonly split: number;
   readonly problem: string | null;
   readonly past: readonly Place[];
   readonly future: readonly Place[];
@@ -38,7 +44,10 @@ export interface State {
 type Place = Pick<State, "space" | "pace" | "stops">;
 
 /** What a link carries. */
-export type Linked = Pick<State, "space" | "pace" | "stops" | "t" | "shape" | "light" | "exposure" | "orbit">;
+export type Linked = Pick<
+  State,
+  "space" | "pace" | "stops" | "t" | "compare" | "shape" | "light" | "exposure" | "orbit"
+>;
 
 export const EXPOSURES = [-4, 4] as const;
 
@@ -53,6 +62,7 @@ export function createState(library: LibrarySummary, linked: Partial<Linked>, th
     light: "studio",
     exposure: 0,
     orbit: HOME,
+    compare: "",
     ...linked,
     stops,
     slot: stops.length - 1,
@@ -63,6 +73,9 @@ export function createState(library: LibrarySummary, linked: Partial<Linked>, th
     view: null,
     route: null,
     recipe: [],
+    otherRoute: null,
+    otherRecipe: [],
+    split: 0.5,
     problem: null,
     past: [],
     future: [],
@@ -73,13 +86,22 @@ export class Actions {
   constructor(private readonly store: Store<State>) {}
 
   setT = (t: number): void => {
-    const { route } = this.store.get();
+    const { route, otherRoute } = this.store.get();
     const clamped = Math.min(Math.max(t, 0), 1);
-    this.store.set({ t: clamped, ...(route && { recipe: recipeAt(route, clamped) }) });
+    this.store.set({
+      t: clamped,
+      ...(route && { recipe: recipeAt(route, clamped) }),
+      ...(otherRoute && { otherRecipe: recipeAt(otherRoute, clamped) }),
+    });
   };
 
   setRoute = (route: RouteView): void => {
     this.store.set({ route, recipe: recipeAt(route, this.store.get().t), problem: null });
+  };
+
+  setOtherRoute = (otherRoute: RouteView | null): void => {
+    const { t } = this.store.get();
+    this.store.set({ otherRoute, otherRecipe: otherRoute ? recipeAt(otherRoute, t) : [] });
   };
 
   /** Put a material where the chosen slot is, and choose the other end next. */

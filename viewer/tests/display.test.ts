@@ -37,7 +37,7 @@ test("a material's own point is where its mix is drawn", () => {
     [1, 8, 2],
   ];
   const names = points.map((_, i) => String(i));
-  const display = new Scores({ channel: "all", axes: ["a", "b", "c"], points, edges: [] }, names);
+  const display = new Scores({ name: "", channel: "all", axes: ["a", "b", "c"], points, edges: [] }, names);
   names.forEach((name, i) => {
     expect(display.place([{ name, weight: [1, 1, 1] }]).distanceTo(display.points[i]!)).toBeLessThan(1e-12);
   });

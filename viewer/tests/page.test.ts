@@ -78,6 +78,7 @@ test("a link comes back to the same place", () => {
     pace: "uniform",
     stops: ["a", "c", "b"],
     t: 0.25,
+    compare: "paper",
     shape: "teapot",
     light: "points",
     exposure: -1.5,

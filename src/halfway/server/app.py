@@ -81,7 +81,7 @@ def _add_queries(app: FastAPI, explorer: Explorer) -> None:
     def route(
         stop: Annotated[list[str], Query(max_length=64)],
         space: Annotated[str, Query(max_length=50)],
-        pace: Annotated[str, Query(max_length=50)] = "uniform",
+        pace: Annotated[str, Query(max_length=50)] = "perceptual",
     ) -> RouteView:
         return explorer.route(space, stop, pace)
 

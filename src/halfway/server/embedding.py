@@ -4,43 +4,54 @@ The page stretches each axis so that the materials spread evenly: scores are rul
 decades, and a plain plot is one heap with a few points far away.
 """
 
-from typing import Literal, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
 
 from ..library import Pca
-from ..space import PaperSpace, Space
+from ..space import AnchoredSpace, PaperSpace, Space
 from .schema import Channel, Embedding, SpaceView
 
 Edges: TypeAlias = list[tuple[int, int]]
-
 CHANNELS: tuple[Channel, Channel, Channel] = ("r", "g", "b")
+N_AXES = 3
+"""Coordinates that can be looked at together."""
 
 
 def look_at(space: Space, pca: Pca) -> SpaceView:
-    """The space as points in three dimensions."""
-    if isinstance(space, PaperSpace):
-        embeddings = [
-            _embedding(channel, triangulation.points, _edges(triangulation.simplices))
-            for channel, triangulation in zip(CHANNELS, space.triangulations, strict=True)
-        ]
-    else:
-        embeddings = [_embedding("all", joint_scores(pca), [])]
+    """The space as points in up to three dimensions, in one view or several."""
+    match space:
+        case PaperSpace():
+            embeddings = [
+                Embedding(
+                    name=channel.upper(),
+                    channel=channel,
+                    axes=_scores(triangulation.points),
+                    points=triangulation.points[:, :N_AXES].tolist(),
+                    edges=_edges(triangulation.simplices),
+                )
+                for channel, triangulation in zip(CHANNELS, space.triangulations, strict=True)
+            ]
+        case AnchoredSpace():
+            embeddings = [_joint("Scores", space.points[:, :-3]), _body(space)]
+        case _:
+            embeddings = [_joint("Scores", pca.joint_scores(N_AXES))]
     return SpaceView(name=space.name, embeddings=embeddings)
 
 
-def joint_scores(pca: Pca, n_components: int = 3) -> np.ndarray:
-    """Scores of all channels together: of the sum of their Gram matrices; shape (N, k)."""
-    gram = np.einsum("cik,ck,cjk->ij", pca.eigenvectors, pca.eigenvalues, pca.eigenvectors)
-    eigenvalues, eigenvectors = np.linalg.eigh(gram)
-    kept = eigenvectors[:, ::-1][:, :n_components]
-    return kept * np.sqrt(np.maximum(eigenvalues[::-1][:n_components], 0.0))
+def _joint(name: str, scores: np.ndarray) -> Embedding:
+    points = scores[:, :N_AXES].tolist()
+    return Embedding(name=name, channel="all", axes=_scores(scores), points=points, edges=[])
 
 
-def _embedding(channel: Channel | Literal["all"], points: np.ndarray, edges: Edges) -> Embedding:
-    points = points[:, :3]
-    axes = [f"score {i + 1}" for i in range(points.shape[1])]
-    return Embedding(channel=channel, axes=axes, points=points.tolist(), edges=edges)
+def _body(space: AnchoredSpace) -> Embedding:
+    axes = list(space.coordinates[-3:])
+    points = space.points[:, -3:].tolist()
+    return Embedding(name="Body colour", channel="all", axes=axes, points=points, edges=[])
+
+
+def _scores(points: np.ndarray) -> list[str]:
+    return [f"score {i + 1}" for i in range(min(N_AXES, points.shape[1]))]
 
 
 def _edges(simplices: np.ndarray) -> Edges:

@@ -17,7 +17,7 @@ from ..formats import MerlFile, encode_header
 from ..library import BasisImages, Library, Pca
 from ..render.scenes import SCENES
 from ..render.studio import studio
-from ..space import SPACES, Mixer, Recipe, Route, Space, make_space
+from ..space import SPACES, Mixer, Recipe, Route, Space, make_space, perceptual
 from ..tasks import Track, silent
 from .blocks import Block
 from .embedding import look_at
@@ -41,7 +41,7 @@ TEXTS = {
     "paper": "one triangulation per channel, of its first three scores",
     "linear": "the two end materials in plain proportion",
 }
-PACES = ("uniform",)
+PACES = ("perceptual", "uniform")
 EXPORTS = ("merl",)
 
 
@@ -98,7 +98,8 @@ class Explorer:
             )
         if pace not in PACES:
             raise SpaceError(f"there is no pace {pace!r}: expected {' or '.join(PACES)}.")
-        return to_view(Route.through(self._space(space), stops, pace=pace))
+        route = Route.through(self._space(space), stops)
+        return to_view(perceptual(route, self._pictures) if pace == "perceptual" else route)
 
     def table(self, name: str) -> Block:
         """The table of one material."""
@@ -147,14 +148,22 @@ def to_view(route: Route) -> RouteView:
     """The route as its knots, with the materials that carry weight anywhere on it."""
     used = np.flatnonzero(route.weights.any(axis=(0, 1)))
     r, g, b = route.weights[:, :, used].clip(0, 1).tolist()
-    n_legs = len(route.stops) - 1
     return RouteView(
         library=route.library,
         space=route.space,
         pace=route.pace,
         stops=list(route.stops),
-        stop_t=[i / n_legs for i in range(n_legs + 1)],
+        stop_t=route.stop_ts.tolist(),
+        crossings=_crossings(route),
         knots=route.knots.tolist(),
         names=[route.names[i] for i in used],
         weights=WeightTable(r=r, g=g, b=b),
     )
+
+
+def _crossings(route: Route) -> list[float]:
+    """The inner knots at which the set of materials that carry weight changes."""
+    carries = route.weights > 0
+    pieces = carries[:, :-1] | carries[:, 1:]
+    changes = (pieces[:, 1:] != pieces[:, :-1]).any(axis=(0, 2))
+    return route.knots[1:-1][changes].tolist()

@@ -85,7 +85,9 @@ class LibrarySummary(Model):
 class Embedding(Model):
     """The materials as points in up to three dimensions, to be looked at."""
 
+    name: str
     channel: Channel | Literal["all"]
+    """Whose weights place a mix in it."""
     axes: list[str]
     """What the coordinates are."""
     points: list[list[float]]
@@ -118,6 +120,8 @@ class RouteView(Model):
     stops: list[str]
     stop_t: list[float]
     """Where each stop is on the route."""
+    crossings: list[float]
+    """Where a material enters or leaves the recipe of any channel."""
     knots: list[float]
     """Ascending from 0 to 1."""
     names: list[str]

@@ -52,6 +52,7 @@ export interface LibrarySummary {
 
 /** The materials as points in up to three dimensions, to be looked at. */
 export interface Embedding {
+  readonly name: string;
   readonly channel: "r" | "g" | "b" | "all";
   readonly axes: readonly string[];
   readonly points: readonly (readonly number[])[];
@@ -78,6 +79,7 @@ export interface RouteView {
   readonly pace: string;
   readonly stops: readonly string[];
   readonly stop_t: readonly number[];
+  readonly crossings: readonly number[];
   readonly knots: readonly number[];
   readonly names: readonly string[];
   readonly weights: WeightTable;

@@ -3,10 +3,13 @@
 import { el, iconButton, onResize, segments } from "../dom";
 import type { Context } from "../main";
 import { toEnvironment } from "../render/environment";
+import { Loop } from "../render/loop";
 import { type Light, Painter } from "../render/painter";
 import { HOME, type Shape } from "../render/stage";
 import { EXPOSURES } from "../state";
 import { nearestFirst } from "../wanted";
+import { orbitOnDrag } from "./orbit";
+import { splitHandle } from "./split";
 
 export function materialView(context: Context): HTMLElement {
   const { store } = context;
@@ -50,6 +53,7 @@ export function materialView(context: Context): HTMLElement {
     canvas,
     el("div.overlay.top", {}, {}, el("h2", {}, {}, "Material"), el("div.group", {}, {}, note, home)),
     el("div.overlay.bottom", {}, {}, shapes.element, lights.element, exposure(context)),
+    splitHandle(context),
     el("div.bar", {}, {}, progress),
   );
   try {
@@ -73,7 +77,7 @@ function paint(
   const painter = new Painter(canvas, tables, library.lights, toEnvironment(context.environment));
   let quality = 1;
   const measured = new Set<Light>();
-  const fit = () => {
+  const fitSize = () => {
     const ratio = Math.min(window.devicePixelRatio || 1, 2);
     const [width, height] = [panel.clientWidth * ratio, panel.clientHeight * ratio];
     const scale = quality * Math.min(1, Math.sqrt(MOST_PIXELS / (width * height)));
@@ -90,30 +94,35 @@ function paint(
     loop.passMilliseconds = milliseconds * smaller ** 2;
     if (smaller === 1) return;
     quality *= smaller;
-    fit();
+    fitSize();
   };
   const loop = new Loop(() => {
-    const { recipe, exposure, route, t, light } = store.get();
+    const { recipe, otherRecipe, split, exposure, light } = store.get();
     if (recipe[0]) measure(recipe[0].name, light);
-    const names = recipe.map(({ name }) => name);
+    const names = [...new Set([...recipe, ...otherRecipe].map(({ name }) => name))];
     const missing = names.filter((name) => tables.get(name) === undefined);
-    // First all of the present recipe, then what the slider meets next, at a few samples: crossing into it shows at once.
-    const rest = route ? nearestFirst(route, t) : [];
-    const working = missing.length === 0 && painter.improve(names, loop.budget);
-    const ahead = working || painter.improve(rest.slice(0, 12), Math.ceil(loop.budget / 2), 4);
-    painter.show(recipe, 2 ** exposure);
-    const samples = names.length ? painter.samples(names) : 0;
+    const working = painter.improve(names, loop.budget);
+    // Then what the slider meets next, at a few samples: crossing into it shows at once.
+    const ahead =
+      !working && painter.improve(comingUp().slice(0, N_AHEAD), Math.ceil(loop.budget / 2), SAMPLES_AHEAD);
+    painter.show(recipe, otherRecipe, split, 2 ** exposure);
+    const samples = names.length && !missing.length ? painter.samples(names) : 0;
     note.textContent = missing.length
       ? `loading ${missing.length} of ${names.length} tables`
-      : `${Math.min(samples, painter.targetSamples)} / ${painter.targetSamples} samples`;
+      : `${samples} / ${painter.targetSamples} samples`;
     const share = missing.length ? 1 - missing.length / names.length : samples / painter.targetSamples;
     progress.style.transform = `scaleX(${share < 1 ? share : 0})`;
-    panel.dataset.samples = String(missing.length ? 0 : samples);
-    panel.dataset.ready = String(samples > 0 && missing.length === 0);
+    panel.dataset.samples = String(samples);
+    panel.dataset.ready = String(samples > 0);
     return working || ahead;
   });
+  const comingUp = () => {
+    const { route, otherRoute, t } = store.get();
+    const [own, other] = [route, otherRoute].map((r) => (r ? nearestFirst(r, t) : []));
+    return [...new Set(own!.flatMap((name, i) => [name, other![i] ?? name]).concat(other!))];
+  };
   onResize(panel, () => {
-    fit();
+    fitSize();
     loop.run();
   });
   store.watch(
@@ -124,14 +133,13 @@ function paint(
     },
   );
   store.watch(
-    ({ recipe, exposure }) => [recipe, exposure],
+    ({ recipe, otherRecipe, split, exposure }) => [recipe, otherRecipe, split, exposure],
     () => loop.run(),
   );
   store.watch(
-    ({ route, recipe }) => [route, recipe],
-    () => {
-      const { route, t, recipe } = store.get();
-      if (route) tables.want([...new Set([...recipe.map(({ name }) => name), ...nearestFirst(route, t)])]);
+    ({ recipe, otherRecipe }) => [recipe, otherRecipe],
+    ([recipe, otherRecipe]) => {
+      tables.want([...new Set([...[...recipe!, ...otherRecipe!].map(({ name }) => name), ...comingUp()])]);
     },
   );
   tables.onChange = (problem) => {
@@ -142,79 +150,11 @@ function paint(
   orbitOnDrag(context, canvas);
 }
 
+const N_AHEAD = 12;
+const SAMPLES_AHEAD = 4;
 const MOST_PIXELS = 1.4e6;
 /** Milliseconds that a pass over one material may take before the picture is made smaller. */
 const PATIENCE = 40;
-
-/** Runs frames while there is something to do. */
-class Loop {
-  passMilliseconds = 10;
-  private running = false;
-  private touched = 0;
-
-  constructor(private readonly frame: () => boolean) {}
-
-  /** Passes that a frame has time for: few while something moves, more while the picture only gets better. */
-  get budget(): number {
-    const milliseconds = performance.now() - this.touched < 250 ? 10 : 50;
-    return Math.min(64, Math.max(1, Math.round(milliseconds / this.passMilliseconds)));
-  }
-
-  /** Something moved. */
-  run(): void {
-    this.touched = performance.now();
-    this.goOn();
-  }
-
-  goOn(): void {
-    if (this.running) return;
-    this.running = true;
-    requestAnimationFrame(this.step);
-  }
-
-  private readonly step = () => {
-    this.running = false;
-    if (this.frame()) this.goOn();
-  };
-}
-
-function orbitOnDrag({ store }: Context, canvas: HTMLCanvasElement): void {
-  let from: { x: number; y: number } | null = null;
-  canvas.addEventListener("pointerdown", (event) => {
-    canvas.setPointerCapture(event.pointerId);
-    from = { x: event.clientX, y: event.clientY };
-  });
-  canvas.addEventListener("pointermove", (event) => {
-    if (from === null) return;
-    turn(-(event.clientX - from.x) * 0.008, (event.clientY - from.y) * 0.008);
-    from = { x: event.clientX, y: event.clientY };
-  });
-  for (const end of ["pointerup", "pointercancel"])
-    canvas.addEventListener(end, () => {
-      from = null;
-    });
-  const turn = (azimuth: number, elevation: number) => {
-    const { orbit } = store.get();
-    store.set({
-      orbit: {
-        ...orbit,
-        azimuth: orbit.azimuth + azimuth,
-        elevation: Math.min(Math.max(orbit.elevation + elevation, -1.4), 1.4),
-      },
-    });
-  };
-  canvas.addEventListener(
-    "wheel",
-    (event) => {
-      event.preventDefault();
-      const { orbit } = store.get();
-      store.set({
-        orbit: { ...orbit, zoom: Math.min(Math.max(orbit.zoom * Math.exp(-event.deltaY * 0.001), 0.4), 4) },
-      });
-    },
-    { passive: false },
-  );
-}
 
 function exposure({ store }: Context): HTMLElement {
   const [min, max] = EXPOSURES;

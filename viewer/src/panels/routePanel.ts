@@ -1,8 +1,8 @@
 // The route: stops as chips, and a strip of small pictures that is the slider for t.
 
-import { el, icon, iconButton, onResize, style } from "../dom";
+import { el, icon, iconButton } from "../dom";
 import type { Context } from "../main";
-import { recipeAt } from "../recipe";
+import { strip } from "./strip";
 
 export function routePanel(context: Context): HTMLElement {
   const { store } = context;
@@ -25,7 +25,15 @@ export function routePanel(context: Context): HTMLElement {
     "section.panel.route",
     { "aria-label": "Route" },
     {},
-    el("div.row", {}, {}, playButton(context), stops(context), el("span.t", {}, {}, "t = ", value)),
+    el(
+      "div.row",
+      {},
+      {},
+      playButton(context),
+      stops(context),
+      compareChoice(context),
+      el("span.t", {}, {}, "t = ", value),
+    ),
     strip(context),
     problem,
   );
@@ -136,63 +144,22 @@ function chip({ store, actions, thumbnails }: Context, name: string, i: number):
 }
 
 /** Small pictures along t, ticks where the recipe changes its simplex, and a range input on top. */
-function strip({ store, actions, thumbnails }: Context): HTMLElement {
-  const canvas = el("canvas", { "aria-hidden": "true" });
-  const head = el("div.playhead");
-  const input = el(
-    "input",
-    { id: "t", type: "range", min: 0, max: 1, step: 0.001, "aria-label": "Position t on the route" },
-    {
-      oninput: () => {
-        store.set({ playing: false });
-        actions.setT(Number(input.value));
-      },
-    },
+
+/** Another space whose way through the same stops is shown beside this one's. */
+function compareChoice({ store }: Context): HTMLElement {
+  const { library } = store.get();
+  const select = el(
+    "select.field",
+    { id: "compare" },
+    { onchange: () => store.set({ compare: select.value }) },
+    el("option", { value: "" }, {}, "nothing"),
+    ...library.spaces.map(({ name, text }) => el("option", { value: name, title: text }, {}, name)),
   );
-  const element = el("div.strip", {}, {}, canvas, input, head);
   store.watch(
-    ({ t }) => t,
-    (t) => {
-      input.value = String(t);
-      // The middle of a range input's thumb stays half a thumb away from the ends.
-      head.style.left = `calc(var(--side) / 2 + ${t} * (100% - var(--side)))`;
+    ({ compare }) => compare,
+    (compare) => {
+      select.value = compare;
     },
   );
-  const context = canvas.getContext("2d")!;
-  const cell = document.createElement("canvas");
-  cell.width = cell.height = thumbnails.size;
-  const pen = cell.getContext("2d")!;
-  const draw = () => {
-    const { route } = store.get();
-    const { width, height } = canvas;
-    context.clearRect(0, 0, width, height);
-    if (route === null || width === 0) return;
-    const ratio = width / canvas.clientWidth;
-    const side = Number.parseFloat(getComputedStyle(element).getPropertyValue("--side")) * ratio;
-    const inset = side / 2;
-    const count = Math.max(2, Math.floor((width - side) / (side * 1.07)) + 1);
-    context.imageSmoothingQuality = "high";
-    for (let i = 0; i < count; i++) {
-      const t = i / (count - 1);
-      pen.putImageData(thumbnails.picture(recipeAt(route, t)), 0, 0);
-      const centre = inset + t * (width - 2 * inset);
-      context.drawImage(cell, centre - side / 2, 0, side, side);
-    }
-    const line = (t: number, from: number, colour: string, thickness: number) => {
-      context.fillStyle = colour;
-      context.fillRect(inset + t * (width - 2 * inset) - thickness / 2, from, thickness, height - from);
-    };
-    context.fillStyle = style("--line");
-    context.fillRect(inset, height - ratio, width - 2 * inset, ratio);
-    for (const t of route.knots) line(t, height - 4 * ratio, style("--quiet"), ratio);
-    for (const t of route.stop_t) line(t, height - 7 * ratio, style("--text"), 2 * ratio);
-  };
-  onResize(element, (width, height) => {
-    canvas.width = width;
-    canvas.height = height;
-    draw();
-  });
-  store.watch(({ route }) => route, draw);
-  document.addEventListener("themechange", draw);
-  return element;
+  return el("label.choice", {}, {}, "compare with", select);
 }

@@ -2,7 +2,6 @@
 
 import type { Vector3 } from "three";
 
-import type { Embedding } from "../api/schema";
 import { el, onResize, segments, style } from "../dom";
 import type { Context } from "../main";
 import { recipeAt } from "../recipe";
@@ -10,10 +9,7 @@ import { Appearance } from "../render/appearance";
 import { Cloud } from "../render/cloud";
 import { Scores, weightIn } from "../render/display";
 
-type Map = typeof APPEARANCE | Embedding["channel"];
-
-const APPEARANCE = "appearance";
-const TITLES = { r: "R", g: "G", b: "B", all: "Scores" } as const;
+const APPEARANCE = "Looks";
 const ROUTE_POINTS = 160;
 /** A pointer that moved less between down and up was a click, in CSS pixels. */
 const STILL = 4;
@@ -40,7 +36,7 @@ export function spaceView(context: Context): HTMLElement {
     el("div.overlay.top", {}, {}, el("h2", {}, {}, "Space"), maps),
     el("div.overlay.bottom", {}, {}, note),
   );
-  let shown: Map = APPEARANCE;
+  let shown = APPEARANCE;
   let cloud: Cloud;
   try {
     cloud = new Cloud(canvas, names, thumbnails, () => draw());
@@ -53,15 +49,12 @@ export function spaceView(context: Context): HTMLElement {
   }
 
   const appearance = new Appearance(names, thumbnails);
-  const embedding = () => store.get().view?.embeddings.find(({ channel }) => channel === shown);
+  const embedding = () => store.get().view?.embeddings.find(({ name }) => name === shown);
   const offer = () => {
     const embeddings = store.get().view?.embeddings ?? [];
-    const options = [
-      [APPEARANCE, "Looks"],
-      ...embeddings.map(({ channel }) => [channel, TITLES[channel]] as const),
-    ] as const;
+    const options = [APPEARANCE, ...embeddings.map(({ name }) => name)].map((name) => [name, name] as const);
     if (!options.some(([map]) => map === shown)) shown = APPEARANCE;
-    const choice = segments<Map>("Map", options, (map) => {
+    const choice = segments("Map", options, (map) => {
       shown = map;
       choice.mark(map);
       arrange();
@@ -72,7 +65,7 @@ export function spaceView(context: Context): HTMLElement {
   };
   const arrange = () => {
     const current = embedding();
-    note.textContent = current ? `${current.axes.join(", ")}; quantile scales` : "near: looks alike";
+    note.textContent = current ? `${current.axes.join(", ")}; quantile scales` : "close together: look alike";
     cloud.arrange(current ? new Scores(current, names) : appearance, current?.edges ?? []);
     traceRoute();
     place();

@@ -30,12 +30,18 @@ export type Light = "studio" | "points";
 export const TARGET_SAMPLES: Record<Light, number> = { studio: 192, points: 16 };
 const SAMPLES_A_PASS: Record<Light, number> = { studio: 1, points: 1 };
 const LAYER_BYTES = 400e6;
-const MIN_LAYERS = 16;
+const MIN_LAYERS = 24;
 
 interface Layer {
   readonly index: number;
   samples: number;
   used: number;
+}
+
+interface Shown {
+  readonly recipe: readonly Ingredient[];
+  readonly other: readonly Ingredient[];
+  readonly names: readonly string[];
 }
 
 export class Painter {
@@ -46,7 +52,7 @@ export class Painter {
   private light: Light = "points";
   private clock = 0;
   private buffered = -1;
-  private shown: readonly Ingredient[] = [];
+  private shown: Shown = { recipe: [], other: [], names: [] };
   private readonly points: Pass;
   private readonly studio: Pass;
   private readonly composite: Pass;
@@ -106,7 +112,10 @@ export class Painter {
       {
         uBasis: { value: null },
         uTerms: { value: Array.from({ length: MAX_TERMS }, () => new Vector4()) },
+        uOtherTerms: { value: Array.from({ length: MAX_TERMS }, () => new Vector4()) },
         uCount: { value: 0 },
+        uOtherCount: { value: 0 },
+        uSplit: { value: 0 },
         uExposure: { value: 1 },
       },
       { blending: NoBlending },
@@ -132,7 +141,7 @@ export class Painter {
     });
     this.composite.uniforms.uBasis!.value = this.target.texture;
     this.layers.clear();
-    this.shown = [];
+    this.shown = { recipe: [], other: [], names: [] };
     this.buffered = -1;
   }
 
@@ -178,20 +187,25 @@ export class Painter {
     return milliseconds ?? null;
   }
 
-  /** Show a recipe; where a material has no picture yet, what was shown before stays. */
-  show(recipe: readonly Ingredient[], exposure: number): boolean {
-    const ready = recipe.length > 0 && this.samples(recipe.map(({ name }) => name)) > 0;
-    if (ready) this.shown = recipe;
-    const terms = this.composite.uniforms.uTerms!.value as Vector4[];
-    const drawable = this.shown.filter(({ name }) => (this.layers.get(name)?.samples ?? 0) > 0);
-    if (drawable.length < this.shown.length) return false;
-    drawable.slice(0, MAX_TERMS).forEach(({ name, weight: [r, g, b] }, i) => {
+  /** Show a recipe, and another one right of `split`; while a material has no picture yet, what was shown before stays. */
+  show(recipe: readonly Ingredient[], other: readonly Ingredient[], split: number, exposure: number): void {
+    const next = { recipe, other, names: [...recipe, ...other].map(({ name }) => name) };
+    if (recipe.length > 0 && this.samples(next.names) > 0) this.shown = next;
+    // All samples may just have started over: the last picture stays until each material has one again.
+    if (this.shown.names.length === 0 || this.samples(this.shown.names) === 0) return;
+    const { uniforms } = this.composite;
+    uniforms.uCount!.value = this.fill(uniforms.uTerms!.value, this.shown.recipe);
+    uniforms.uOtherCount!.value = this.fill(uniforms.uOtherTerms!.value, this.shown.other);
+    uniforms.uSplit!.value = this.shown.other.length ? split * this.target!.width : this.target!.width;
+    uniforms.uExposure!.value = exposure;
+    this.composite.draw(this.renderer, null);
+  }
+
+  private fill(terms: readonly Vector4[], recipe: readonly Ingredient[]): number {
+    recipe.slice(0, MAX_TERMS).forEach(({ name, weight: [r, g, b] }, i) => {
       terms[i]!.set(r, g, b, this.layers.get(name)!.index);
     });
-    this.composite.uniforms.uCount!.value = Math.min(drawable.length, MAX_TERMS);
-    this.composite.uniforms.uExposure!.value = exposure;
-    this.composite.draw(this.renderer, null);
-    return ready;
+    return Math.min(recipe.length, MAX_TERMS);
   }
 
   private neediest(
@@ -225,7 +239,7 @@ export class Painter {
   }
 
   private isShown(name: string): boolean {
-    return this.shown.some((ingredient) => ingredient.name === name);
+    return this.shown.names.includes(name);
   }
 
   private addSamples(layer: Layer, { texture, scale, lobe }: TableOnCard): void {

@@ -44,7 +44,7 @@ export const studioShader =
   lobe +
   shade;
 export const sphereShader = HEAD + sphere;
-export const compositeShader = HEAD + composite.replace("@TERMS@", String(MAX_TERMS));
+export const compositeShader = HEAD + composite.replaceAll("@TERMS@", String(MAX_TERMS));
 
 export function meshMaterial(): RawShaderMaterial {
   return new RawShaderMaterial({

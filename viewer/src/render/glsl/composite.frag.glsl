@@ -3,7 +3,10 @@
 
 uniform highp sampler2DArray uBasis;
 uniform vec4 uTerms[@TERMS@]; // weights of r, g, b; layer
+uniform vec4 uOtherTerms[@TERMS@];
 uniform int uCount;
+uniform int uOtherCount;
+uniform float uSplit; // pixels from the left; the other recipe is to its right
 uniform float uExposure;
 out vec4 colour;
 
@@ -16,9 +19,12 @@ void main() {
   ivec2 here = ivec2(gl_FragCoord.xy);
   vec3 sum = vec3(0.0);
   float coverage = 0.0;
-  for (int i = 0; i < uCount; i++) {
-    vec4 basis = texelFetch(uBasis, ivec3(here, int(uTerms[i].w)), 0);
-    if (basis.a > 0.0) sum += uTerms[i].rgb * basis.rgb / basis.a;
+  bool other = gl_FragCoord.x > uSplit;
+  int count = other ? uOtherCount : uCount;
+  for (int i = 0; i < count; i++) {
+    vec4 term = other ? uOtherTerms[i] : uTerms[i];
+    vec4 basis = texelFetch(uBasis, ivec3(here, int(term.w)), 0);
+    if (basis.a > 0.0) sum += term.rgb * basis.rgb / basis.a;
     coverage = max(coverage, basis.a);
   }
   colour = vec4(toSrgb(uExposure * sum) * coverage, coverage);

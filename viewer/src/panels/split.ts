@@ -1,0 +1,48 @@
+// The line between two materials in one picture: this space's to the left, the compared one's to the right.
+
+import { el } from "../dom";
+import type { Context } from "../main";
+
+const STEP = 0.02;
+
+export function splitHandle({ store }: Context): HTMLElement {
+  const [left, right] = [el("span"), el("span")];
+  const move = (split: number) => store.set({ split: Math.min(Math.max(split, 0.03), 0.97) });
+  const handle = el(
+    "div.split",
+    {
+      role: "slider",
+      tabindex: 0,
+      "aria-label": "Split between the two spaces",
+      "aria-valuemin": 0,
+      "aria-valuemax": 100,
+    },
+    {
+      onpointerdown: (event) => handle.setPointerCapture(event.pointerId),
+      onpointermove: (event) => {
+        if (!handle.hasPointerCapture(event.pointerId)) return;
+        const box = handle.parentElement!.getBoundingClientRect();
+        move((event.clientX - box.left) / box.width);
+      },
+      onkeydown: (event) => {
+        if (event.key !== "ArrowLeft" && event.key !== "ArrowRight") return;
+        event.preventDefault();
+        event.stopPropagation();
+        move(store.get().split + (event.key === "ArrowRight" ? STEP : -STEP));
+      },
+    },
+    left,
+    right,
+  );
+  store.watch(
+    ({ space, compare, split }) => [space, compare, split] as const,
+    ([space, compare, split]) => {
+      handle.hidden = compare === "";
+      left.textContent = space;
+      right.textContent = compare;
+      handle.style.left = `${100 * split}%`;
+      handle.setAttribute("aria-valuenow", String(Math.round(100 * split)));
+    },
+  );
+  return handle;
+}
