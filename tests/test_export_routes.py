@@ -10,7 +10,6 @@ from halfway import LinearSpace, Route
 from halfway.errors import OutputError
 from halfway.export import write_route
 from halfway.formats import read_merl
-from halfway.space import uniform
 
 
 @pytest.fixture
@@ -19,7 +18,7 @@ def route(small_library):
 
 
 def test_the_folder_holds_the_recipes_and_the_tables(route, small_library, tmp_path):
-    written = write_route(tmp_path / "route", route, uniform(3), small_library, format="merl")
+    written = write_route(tmp_path / "route", route, route.steps(3), small_library, format="merl")
     assert written == (3, 0)
     assert sorted(p.name for p in (tmp_path / "route").iterdir()) == [
         "000.binary",
@@ -35,7 +34,7 @@ def test_the_folder_holds_the_recipes_and_the_tables(route, small_library, tmp_p
 
 
 def test_first_and_last_table_are_the_stops(route, small_library, tmp_path):
-    write_route(tmp_path, route, uniform(3), small_library, format="merl")
+    write_route(tmp_path, route, route.steps(3), small_library, format="merl")
     for file, name in (("000", "material-0"), ("002", "material-1")):
         assert_allclose(
             read_merl(tmp_path / f"{file}.binary").values,
@@ -48,20 +47,20 @@ def test_first_and_last_table_are_the_stops(route, small_library, tmp_path):
 
 
 def test_what_is_finished_is_kept_and_what_is_cut_is_written_again(route, small_library, tmp_path):
-    write_route(tmp_path, route, uniform(4), small_library, format="merl")
+    write_route(tmp_path, route, route.steps(4), small_library, format="merl")
     untouched = (tmp_path / "000.binary").stat().st_mtime_ns
     whole = (tmp_path / "002.binary").read_bytes()
     (tmp_path / "001.binary").unlink()
     (tmp_path / "002.binary").write_bytes(whole[:100])
-    assert write_route(tmp_path, route, uniform(4), small_library, format="merl") == (2, 2)
+    assert write_route(tmp_path, route, route.steps(4), small_library, format="merl") == (2, 2)
     assert (tmp_path / "002.binary").read_bytes() == whole
     assert (tmp_path / "000.binary").stat().st_mtime_ns == untouched
 
 
 def test_another_route_in_the_same_folder_keeps_no_stale_table(route, small_library, tmp_path):
-    write_route(tmp_path, route, uniform(5), small_library, format="merl")
+    write_route(tmp_path, route, route.steps(5), small_library, format="merl")
     other = Route.through(LinearSpace("small", small_library.names), ["material-2", "material-3"])
-    assert write_route(tmp_path, other, uniform(3), small_library, format="merl") == (3, 0)
+    assert write_route(tmp_path, other, other.steps(3), small_library, format="merl") == (3, 0)
     assert not (tmp_path / "004.binary").exists()
     assert_allclose(
         read_merl(tmp_path / "000.binary").values,
@@ -73,14 +72,14 @@ def test_another_route_in_the_same_folder_keeps_no_stale_table(route, small_libr
 def test_a_foreign_recipes_json_is_not_touched(route, small_library, tmp_path):
     (tmp_path / "recipes.json").write_text('["lasagne"]')
     with pytest.raises(OutputError, match="is in the way: it is no route of halfway"):
-        write_route(tmp_path, route, uniform(3), small_library)
+        write_route(tmp_path, route, route.steps(3), small_library)
     assert (tmp_path / "recipes.json").read_text() == '["lasagne"]'
 
 
 def test_a_folder_that_is_a_file_gets_one_line(route, small_library, tmp_path):
     (tmp_path / "route").write_text("")
     with pytest.raises(OutputError, match="part of its path is a file, not a folder"):
-        write_route(tmp_path / "route", route, uniform(3), small_library)
+        write_route(tmp_path / "route", route, route.steps(3), small_library)
 
 
 def test_too_little_space_is_said_before_anything_is_written(
@@ -90,5 +89,5 @@ def test_too_little_space_is_said_before_anything_is_written(
     with pytest.raises(
         OutputError, match=r"a route of 3 tables takes 0.00 GB and .* has 0.00 GB free"
     ):
-        write_route(tmp_path / "route", route, uniform(3), small_library, format="merl")
+        write_route(tmp_path / "route", route, route.steps(3), small_library, format="merl")
     assert not (tmp_path / "route").exists()

@@ -1,5 +1,7 @@
 """Spaces, routes and mixes: the laws of DESIGN section 5, on random and on real libraries."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -9,7 +11,7 @@ from strategies import convex_weights
 
 from halfway import LinearSpace, PaperSpace, Pca, Recipe, Route, mix, open_library
 from halfway.errors import OutsideHullError, RecipeError, SpaceError
-from halfway.space import Mixer, make_space, uniform
+from halfway.space import Mixer, make_space
 
 unit = st.floats(0, 1)
 
@@ -121,9 +123,17 @@ def test_t_off_the_route_is_refused(space, t):
         Route.through(space, ["material-1", "material-2"]).recipe(t)
 
 
-def test_steps_and_components_have_limits(small_library, pca):
-    with pytest.raises(SpaceError, match="a route of 1 materials has no two ends"):
-        uniform(1)
+def test_steps_include_every_stop(space):
+    route = Route.through(space, ["material-2", "material-8", "material-3"])
+    assert_allclose(route.steps(5), [0, 0.25, 0.5, 0.75, 1])
+    assert 0.5 in route.steps(4)
+    uneven = replace(route, stop_ts=np.array([0, 0.01, 1]))
+    assert_allclose(uneven.steps(4), [0, 0.01, 0.505, 1])
+
+
+def test_steps_and_components_have_limits(small_library, space, pca):
+    with pytest.raises(SpaceError, match="a route of 1 materials cannot pass 2 stops: expected -n 2 or more"):
+        Route.through(space, ["material-1", "material-2"]).steps(1)
     with pytest.raises(SpaceError, match="of 7 components cannot be made: expected 1 to 6"):
         PaperSpace.fit(small_library, pca, n_components=7)
     with pytest.raises(SpaceError, match="there is no space 'cubic': expected one of"):

@@ -5,7 +5,7 @@ Commands import what they use when they run, so that ``--help`` is immediate.
 
 import typer
 
-from . import console, demo, library, mix, render, report, route
+from . import console, demo, library, mix, render, report, route, space
 
 app = typer.Typer(
     name="halfway",
@@ -18,7 +18,7 @@ app = typer.Typer(
     rich_markup_mode=None,
 )
 app.add_typer(library.app, name="library")
-for command in (demo.demo, report.report, route.route, mix.mix, render.render):
+for command in (demo.demo, report.report, route.route, space.space, mix.mix, render.render):
     app.command()(command)
 
 

@@ -58,6 +58,16 @@ def parse_t(text: str) -> list[float]:
     return ts
 
 
+def parse_point(text: str) -> np.ndarray:
+    """The coordinates written as ``1.5,-2e3,0.1``."""
+    try:
+        return np.array([float(number) for number in text.split(",")])
+    except ValueError:
+        raise ArgumentError(
+            f"--point {text!r} is no list of numbers: expected such as 1.5,-2e3,0.1."
+        ) from None
+
+
 def read_json(path: Path) -> Any:
     """The JSON document in a file."""
     try:
@@ -75,7 +85,7 @@ def to_recipe(words: Sequence[str]) -> tuple["Library", "Recipe"]:
     from ..library import open_library
     from ..space import Recipe
 
-    where, rest = split_library(words)
+    where, rest = split_library(words) if words else (DEFAULT_LIBRARY, [])
     if len(rest) != 1:
         raise ArgumentError(
             f'{len(rest)} recipes are given where one is expected: quote it, such as "gold-paint=0.7, teflon=0.3".'

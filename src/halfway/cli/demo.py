@@ -28,7 +28,7 @@ def demo(
     from halfway.formats import write_brdf
     from halfway.library import DEFAULT_LIBRARY, Pca, open_library
     from halfway.render import Renderer, pictures
-    from halfway.space import Mixer, Route, make_space, uniform
+    from halfway.space import Mixer, Route, make_space
 
     library = open_library(DEFAULT_LIBRARY)
     say(f"Library {library.name}: {library.origin.description}.")
@@ -36,7 +36,7 @@ def demo(
     write_report(output / "report", library, pca)
     space = make_space("paper", library, cache=cache_folder(), track=track)
     route = Route.through(space, STOPS)
-    ts = uniform(51)
+    ts = route.steps(51)
     write_route(output, route, ts, library, track=track)
     mixer = Mixer(library)
     tables = [mixer.mix(recipe) for recipe in (route.recipe(ts[i]) for i in NEW_MATERIALS)]

@@ -5,26 +5,48 @@ from typing import Annotated
 
 import typer
 
-from .console import say
+from .console import cache_folder, say, track
 
 
 def mix(
     words: Annotated[
-        list[str], typer.Argument(metavar="[LIB] RECIPE", help="Weights, or a recipe's JSON file.")
-    ],
-    output: Annotated[Path, typer.Option("--output", "-o", metavar="FILE", help="A MERL file.")],
+        list[str] | None,
+        typer.Argument(metavar="[LIB] [RECIPE]", help="Weights, or a recipe's JSON file."),
+    ] = None,
+    output: Annotated[
+        Path,
+        typer.Option("--output", "-o", metavar="FILE", help="The file to write: .binary, .bsdf."),
+    ] = ...,  # pyright: ignore[reportArgumentType] (required)
+    point: Annotated[
+        str,
+        typer.Option(metavar="X,Y,...", help="A point of the anchored space, instead of a recipe."),
+    ] = "",
+    clamp: Annotated[
+        bool, typer.Option(help="Take the nearest mix where the point is outside the hull.")
+    ] = False,
 ) -> None:
     """Mix full tables into a new material.
 
     \b
     halfway mix "gold-paint=0.7, teflon=0.3" -o new.binary
     halfway mix route/recipes.json:25 -o middle.binary
+    halfway mix --point=-2e4,1e3,-500,0.1,0.05,0.02 --clamp -o there.binary     coordinates: halfway space
     """
     from halfway.formats import write_brdf
+    from halfway.library import open_library
+    from halfway.space import anchored_space
     from halfway.space import mix as mixed
 
-    from .arguments import to_recipe
+    from .arguments import DEFAULT_LIBRARY, ArgumentError, parse_point, to_recipe
 
-    library, recipe = to_recipe(words)
+    if point:
+        if len(words or []) > 1:
+            raise ArgumentError("--point and a recipe are given: a material takes one of them.")
+        library = open_library(words[0] if words else DEFAULT_LIBRARY)
+        x = parse_point(point)
+        made = anchored_space(library, cache=cache_folder(), track=track)
+        recipe = made.recipe(x, clamp=clamp)
+    else:
+        library, recipe = to_recipe(words or [])
     write_brdf(output, mixed(library, recipe))
     say(f"{output}: a mix of {', '.join(recipe.names)}. Next: halfway render {output} -o new.png")

@@ -11,8 +11,14 @@ from .console import cache_folder, say, track
 
 
 class SpaceName(StrEnum):
+    anchored = "anchored"
     paper = "paper"
     linear = "linear"
+
+
+class Pace(StrEnum):
+    perceptual = "perceptual"
+    uniform = "uniform"
 
 
 class Format(StrEnum):
@@ -31,10 +37,22 @@ def route(
         typer.Option("--t", metavar="LIST", help="t instead of -n: 0,0.25,1 or 0.0001:1:0.0001."),
     ] = "",
     space: Annotated[
-        SpaceName, typer.Option(help="paper: triangulated scores; linear: the ends alone.")
-    ] = SpaceName.paper,
+        SpaceName,
+        typer.Option(
+            help="anchored: straight in colour, through real materials; paper: the paper's; linear: the ends alone."
+        ),
+    ] = SpaceName.anchored,
+    pace: Annotated[
+        Pace, typer.Option(help="perceptual: equal visible steps; uniform: the paper's.")
+    ] = Pace.perceptual,
+    detour: Annotated[
+        float,
+        typer.Option(
+            help="Longest anchored way, as a multiple of the direct one; 1 is nearly linear."
+        ),
+    ] = 1.1,
     components: Annotated[
-        int, typer.Option("-k", help="Scores that span the paper's space, 1 to 6.")
+        int, typer.Option("-k", help="Scores that span the space; the paper's takes 1 to 6.")
     ] = 3,
     output: Annotated[
         Path | None, typer.Option("--output", "-o", metavar="DIR", help="[default: A-to-B]")
@@ -53,11 +71,12 @@ def route(
 
     \b
     halfway route light-brown-fabric blue-fabric -o fabric --format merl
-    halfway route merl.brdflib cherry-235 tungsten-carbide --t 0.0001:1:0.0001
+    halfway route teflon gold-paint chrome -n 101
+    halfway route cherry-235 tungsten-carbide --space paper --pace uniform --t 0.0001:1:0.0001
     """
     from halfway.export import write_route
-    from halfway.library import open_library
-    from halfway.space import Route, make_space, uniform
+    from halfway.library import BasisImages, open_library
+    from halfway.space import Route, make_space, perceptual
 
     from .arguments import parse_t, split_library
 
@@ -65,9 +84,13 @@ def route(
     library = open_library(where)
     for stop in stops:
         library.index(stop)
-    ts = parse_t(t) if t else uniform(n)
-    made = make_space(space, library, n_components=components, cache=cache_folder(), track=track)
+    made = make_space(
+        space, library, n_components=components, detour=detour, cache=cache_folder(), track=track
+    )
     found = Route.through(made, stops)
+    if pace is Pace.perceptual:
+        found = perceptual(found, BasisImages.fit(library, cache=cache_folder(), track=track))
+    ts = parse_t(t) if t else found.steps(n)
     if as_json:
         print(json.dumps(found.to_json(ts)))
     if output is None and as_json:

@@ -70,11 +70,7 @@ class Pca:
         squared_norms: Float64[np.ndarray, "3 N"],
         n_cells: np.ndarray,
     ) -> "Pca":
-        eigenvalues, eigenvectors = np.linalg.eigh(centred)
-        eigenvalues = np.maximum(eigenvalues[:, ::-1], 0.0)
-        eigenvectors = eigenvectors[:, :, ::-1]
-        largest = np.abs(eigenvectors).argmax(axis=1, keepdims=True)
-        eigenvectors = eigenvectors * np.sign(np.take_along_axis(eigenvectors, largest, axis=1))
+        eigenvalues, eigenvectors = _eigen(centred)
         r, g, b = map(int, n_cells)
         return cls(names, eigenvalues, eigenvectors, squared_norms, (r, g, b))
 
@@ -82,6 +78,13 @@ class Pca:
         """Coordinates of the materials on the first components, 1/sr; their mean is 0."""
         k = n_components
         return self.eigenvectors[:, :, :k] * np.sqrt(self.eigenvalues[:, None, :k])
+
+    def joint_scores(self, n_components: int) -> Float64[np.ndarray, "N k"]:
+        """Coordinates on the first components of all channels together, 1/sr: one analysis of the tables as a whole."""
+        v = self.eigenvectors
+        gram = np.einsum("cij,cj,ckj->ik", v, self.eigenvalues, v)
+        eigenvalues, vectors = _eigen(gram)
+        return vectors[:, :n_components] * np.sqrt(eigenvalues[:n_components])
 
     def squared_residuals(self, n_components: int) -> Float64[np.ndarray, "3 N"]:
         """|u_i - u_i,k|^2 of the k-component reconstructions."""
@@ -102,6 +105,17 @@ class Pca:
         values: Table = np.concatenate(list(run(combine, library.blocks())), axis=1)
         label = f"{name}, {n_components} components"
         return TabularBrdf(values.reshape(3, *library.grid.shape), library.grid, name=label)
+
+
+def _eigen(
+    gram: Float64[np.ndarray, "*c N N"],
+) -> tuple[Float64[np.ndarray, "*c N"], Float64[np.ndarray, "*c N N"]]:
+    """Eigenvalues, descending and non-negative, and eigenvectors whose largest entry is positive."""
+    eigenvalues, eigenvectors = np.linalg.eigh(gram)
+    eigenvectors = eigenvectors[..., ::-1]
+    largest = np.abs(eigenvectors).argmax(axis=-2, keepdims=True)
+    signs = np.sign(np.take_along_axis(eigenvectors, largest, axis=-2))
+    return np.maximum(eigenvalues[..., ::-1], 0.0), eigenvectors * signs
 
 
 class _Gram(NamedTuple):

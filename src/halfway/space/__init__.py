@@ -1,13 +1,18 @@
 """Spaces, recipes, routes, and the mixing of recipes into tables."""
 
-from .making import SPACES, make_space
+from .anchored import AnchoredSpace
+from .making import SPACES, anchored_space, make_space
 from .mix import Mixer, mix
+from .pace import perceptual
 from .recipe import Recipe
-from .route import Route, uniform
+from .route import Route
 from .spaces import LinearSpace, PaperSpace, Space
 from .triangulation import Triangulation
+from .walk import DelaunayWalk
 
 __all__ = [
+    "AnchoredSpace",
+    "DelaunayWalk",
     "SPACES",
     "LinearSpace",
     "Mixer",
@@ -16,7 +21,8 @@ __all__ = [
     "Route",
     "Space",
     "Triangulation",
+    "anchored_space",
     "make_space",
     "mix",
-    "uniform",
+    "perceptual",
 ]

@@ -35,7 +35,9 @@ from ..brdf.image_metrics import (
 )
 from ..library import JUDGING_SCENE, PACING_SCENE, BasisImages, BasisSamples, Library
 from ..tasks import Track, run, silent
-from .spaces import Leg, Space, interpolate
+from .pace import perceptual
+from .route import Route
+from .spaces import Space
 
 N_STEPS = 41
 """Materials on the way of each pair, both ends included."""
@@ -45,13 +47,13 @@ LEAST_DISTANCE = 3.0
 REALISM = ("log", "log by cell", "seen")
 
 Pairs = Int[np.ndarray, "n_pairs 2"]
-Pace = Callable[[Leg, int], Float64[np.ndarray, " n_steps"]]
-"""Where on a leg the n materials of a route are: ascending t from 0 to 1."""
+Pace = Callable[[Route], Route]
+"""The same way with other spacing."""
 
 
-def uniform_pace(leg: Leg, n_steps: int) -> Float64[np.ndarray, " n_steps"]:  # noqa: ARG001 (a `Pace`)
-    """Evenly spaced t: the paper's way."""
-    return np.linspace(0, 1, n_steps)
+def uniform(route: Route) -> Route:
+    """The route as it is: evenly spaced t, the paper's way."""
+    return route
 
 
 def sample_pairs(n_materials: int, n_pairs: int | None = None, *, seed: int = 0) -> Pairs:
@@ -121,10 +123,12 @@ def evaluate(
     bench: Bench,
     pairs: Pairs,
     *,
-    paces: Mapping[str, Pace] = {"uniform": uniform_pace},
+    paces: Mapping[str, Pace] | None = None,
     track: Track = silent,
 ) -> Evaluation:
-    """The measures of ``space`` on ``pairs``."""
+    """The measures of ``space`` on ``pairs``, with jumps at the uniform and the perceptual pace or at those given."""
+    if paces is None:
+        paces = {"uniform": uniform, "perceptual": partial(perceptual, images=bench.pacing)}
     measure = partial(_measure, space, bench, _Measured.of(bench), tuple(paces.values()))
     rows = list(run(measure, list(pairs), label=f"Evaluating {space.name}", track=track))
     distance, detour, jump, judged_jump, hue_excursion, realism, others = map(
@@ -199,30 +203,26 @@ def _measure(
     paces: Sequence[Pace],
     pair: Int[np.ndarray, " 2"],
 ) -> _Row:
-    leg = space.leg(*map(int, pair))
-    evenly = _weights(leg, np.linspace(0, 1, N_STEPS))
-    middle = _weights(leg, np.array([0.5]))
+    route = Route.through(space, [space.names[i] for i in pair])
+    evenly, middle = route.at(np.linspace(0, 1, N_STEPS)), route.at(np.array([0.5]))
     pictures = appearance(bench.pacing.mix(evenly))
     distance = float(cielab_difference(pictures[0], pictures[-1]))
     length = float(cielab_difference(pictures[1:], pictures[:-1]).sum())
     return _Row(
         distance,
         length / distance if distance else np.nan,
-        *_jumps(bench, leg, paces),
+        *_jumps(bench, [pace(route) for pace in paces]),
         _hue_excursion(bench.samples.body_colour(evenly)),
         measured.nearest(bench, middle),
         1.0 - float(middle[:, 0, pair].sum()) / 3,
     )
 
 
-def _weights(leg: Leg, t: Float64[np.ndarray, " n"]) -> Float64[np.ndarray, "3 n N"]:
-    return interpolate(t, leg.knots, leg.weights)
-
-
-def _jumps(bench: Bench, leg: Leg, paces: Sequence[Pace]) -> tuple[list[float], list[float]]:
-    jumps, judged = [], []
-    for pace in paces:
-        weights = _weights(leg, pace(leg, N_STEPS))
+def _jumps(bench: Bench, routes: Sequence[Route]) -> tuple[list[float], list[float]]:
+    jumps: list[float] = []
+    judged: list[float] = []
+    for route in routes:
+        weights = route.at(np.linspace(0, 1, N_STEPS))
         seen, judge = (appearance(images.mix(weights)) for images in (bench.pacing, bench.judging))
         jumps.append(_jump(cielab_difference(seen[1:], seen[:-1])))
         judged.append(_jump(ciede2000_difference(judge[1:], judge[:-1])))

@@ -12,7 +12,6 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from jaxtyping import Float64
-from scipy.optimize import nnls
 
 from .._types import Points
 from ..brdf.image_metrics import appearance, cielab_difference
@@ -21,6 +20,7 @@ from ..errors import OutsideHullError
 from ..library import Pca
 from ..tasks import Track, run, silent
 from .evaluation import Bench
+from .hull import nearest_in_hull
 from .triangulation import Triangulation
 
 Place = Callable[[int], Float64[np.ndarray, "3 N"]]
@@ -108,23 +108,6 @@ def hull_weights(points: Points, x: Float64[np.ndarray, " k"]) -> Float64[np.nda
         return Triangulation.of(points).weights(x)
     except OutsideHullError:
         return nearest_in_hull(points, x)
-
-
-def nearest_in_hull(
-    points: Points, x: Float64[np.ndarray, " k"]
-) -> Float64[np.ndarray, " n_points"]:
-    """Weights of the point of the hull of ``points`` that is nearest to ``x``.
-
-    Non-negative least squares of ``sum_j w_j (y_j - x) = 0, sum_j w_j = 1``: whatever the weights sum to, the best sum
-    for a point at distance d leaves ``d^2/(1 + d^2)``, so the least of all is where d is least.
-
-    Reference: P. Wolfe, "Finding the Nearest Point in a Polytope", Mathematical Programming 11, 1976.
-    """
-    towards = points - x
-    scale = np.abs(towards).max(initial=0.0) or 1.0
-    system = np.concatenate([towards.T / scale, np.ones((1, len(points)))])
-    weights, _ = nnls(system, np.append(np.zeros(len(x)), 1.0))
-    return weights / weights.sum()
 
 
 def _errors(place: Place, bench: Bench, i: int) -> dict[str, float]:

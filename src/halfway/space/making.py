@@ -3,11 +3,31 @@
 from pathlib import Path
 
 from ..errors import SpaceError
-from ..library import Library, Pca
+from ..library import BasisImages, BasisSamples, Library, Pca
 from ..tasks import Track, silent
+from .anchored import DETOUR, AnchoredSpace
 from .spaces import LinearSpace, PaperSpace, Space
 
-SPACES = ("paper", "linear")
+SPACES = ("anchored", "paper", "linear")
+
+
+def anchored_space(
+    library: Library,
+    *,
+    n_components: int = 3,
+    detour: float = DETOUR,
+    cache: Path | None = None,
+    track: Track = silent,
+) -> AnchoredSpace:
+    """The anchored space, fitted to ``library``; ``cache`` keeps what is dear to fit."""
+    return AnchoredSpace.fit(
+        library,
+        Pca.fit(library, cache=cache, track=track),
+        BasisImages.fit(library, cache=cache, track=track),
+        BasisSamples.fit(library, cache=cache, track=track),
+        n_components=n_components,
+        detour=detour,
+    )
 
 
 def make_space(
@@ -15,6 +35,7 @@ def make_space(
     library: Library,
     *,
     n_components: int = 3,
+    detour: float = DETOUR,
     cache: Path | None = None,
     track: Track = silent,
 ) -> Space:
@@ -26,6 +47,10 @@ def make_space(
         When there is no such space.
     """
     match name:
+        case "anchored":
+            return anchored_space(
+                library, n_components=n_components, detour=detour, cache=cache, track=track
+            )
         case "linear":
             return LinearSpace(library.name, library.names)
         case "paper":

@@ -1,7 +1,7 @@
 """Routes: from one material to another, and on.
 
 The straight line from p to q in a space is ``s(t) = (1 - t) p + t q`` (eq. 6); its recipes are piecewise linear in t.
-With several stops each leg takes an equal share of t.
+With several stops each leg takes an equal share of t, until `halfway.space.perceptual` paces the whole.
 """
 
 from collections.abc import Sequence
@@ -43,10 +43,12 @@ class Route:
     """Ascending from 0 to 1."""
     weights: Float64[np.ndarray, "3 n_knots N"]
     """At the knots; linear between them."""
+    stop_ts: Float64[np.ndarray, " n_stops"]
+    """The t of each stop, ascending from 0 to 1."""
 
     @classmethod
-    def through(cls, space: Space, stops: Sequence[str], *, pace: str = "uniform") -> "Route":
-        """The route through materials named ``stops``.
+    def through(cls, space: Space, stops: Sequence[str]) -> "Route":
+        """The route through materials named ``stops``, at the paper's uniform pace.
 
         Raises
         ------
@@ -62,12 +64,28 @@ class Route:
         return cls(
             space.library,
             space.name,
-            pace,
+            "uniform",
             tuple(stops),
             space.names,
             np.append(np.concatenate(knots), 1.0),
             np.concatenate([*weights, legs[-1].weights[:, -1:]], axis=1),
+            np.linspace(0, 1, len(stops)),
         )
+
+    def steps(self, n: int) -> list[float]:
+        """``n`` values of t from 0 to 1: every stop, and each leg evenly, as many steps as its share of t.
+
+        Raises
+        ------
+        SpaceError
+            When n is less than the number of stops.
+        """
+        if n < max(2, len(self.stops)):
+            raise SpaceError(
+                f"a route of {n} materials cannot pass {len(self.stops)} stops: expected -n {len(self.stops)} or more."
+            )
+        borders = _rounded(self.stop_ts * (n - 1))
+        return np.interp(np.arange(n), borders, self.stop_ts).tolist()
 
     def at(self, t: Float64[np.ndarray, " n"]) -> Float64[np.ndarray, "3 n N"]:
         """Weights of all materials at each t in [0, 1]."""
@@ -108,11 +126,12 @@ class Route:
         }
 
 
-def uniform(n_steps: int) -> list[float]:
-    """``n_steps`` evenly spaced t from 0 to 1, both ends included."""
-    if n_steps < 2:
-        raise SpaceError(f"a route of {n_steps} materials has no two ends: expected -n 2 or more.")
-    return [i / (n_steps - 1) for i in range(n_steps)]
+def _rounded(borders: Float64[np.ndarray, " n_stops"]) -> Float64[np.ndarray, " n_stops"]:
+    """Whole numbers near ``borders``, strictly ascending; the first and the last stay."""
+    whole = np.round(borders)
+    for i in range(1, len(whole) - 1):
+        whole[i] = np.clip(whole[i], whole[i - 1] + 1, whole[-1] - (len(whole) - 1 - i))
+    return whole
 
 
 def _check_stops(space: Space, stops: Sequence[str]) -> None:

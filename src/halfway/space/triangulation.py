@@ -22,7 +22,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from jaxtyping import Float64, Int
+from jaxtyping import Bool, Float64, Int
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import Delaunay, KDTree
@@ -64,13 +64,13 @@ class Triangulation:
     @classmethod
     def of(cls, points: Points) -> "Triangulation":
         """Triangulate; warns where points coincide or lie in fewer dimensions than they have coordinates."""
-        origin, basis = _affine_frame(points)
+        origin, basis = affine_frame(points)
         flat = (points - origin) @ basis
-        kept = _representatives(flat)
+        kept = representatives(flat)
         simplices = kept[_delaunay(flat[kept])]
         corners = np.concatenate([flat, np.ones((len(flat), 1))], axis=1)[simplices]
         matrices = np.swapaxes(corners, 1, 2)
-        sound = np.linalg.cond(matrices) < SINGULAR
+        sound = _well_conditioned(matrices)
         return cls(points, simplices[sound], origin, basis, np.linalg.inv(matrices[sound]))
 
     @property
@@ -88,12 +88,8 @@ class Triangulation:
         """
         barycentric = self._barycentric(x)
         best = int(barycentric.min(axis=1).argmax())
-        worst = barycentric[best].min()
-        if worst < -INSIDE:
-            raise OutsideHullError(
-                f"the point {np.array2string(x, precision=4)} is outside the hull of the {len(self.points)} materials "
-                f"(its smallest barycentric weight is {worst:.3g}, and must not be negative): choose a point inside."
-            )
+        if barycentric[best].min() < -INSIDE:
+            raise OutsideHullError(outside_message(len(self.points)))
         return self._scatter(best, barycentric[best])
 
     def path(self, start: int, stop: int) -> Path:
@@ -141,7 +137,12 @@ class Triangulation:
         return weights
 
 
-def _affine_frame(points: Points) -> tuple[np.ndarray, np.ndarray]:
+def outside_message(n: int) -> str:
+    """What to say of a point outside the hull of ``n`` materials."""
+    return f"the point is outside the hull of the {n} materials, so it is no mix of them: choose one between them."
+
+
+def affine_frame(points: Points) -> tuple[np.ndarray, np.ndarray]:
     """A point and the directions in which the points extend, scaled alike so that the largest extent is 1.
 
     Scaling all axes alike changes no circumsphere, and makes the tolerances shares of the extent. Where the points
@@ -162,7 +163,7 @@ def _affine_frame(points: Points) -> tuple[np.ndarray, np.ndarray]:
     return origin, directions[:n_kept].T / (largest or 1.0)
 
 
-def _representatives(points: Points) -> Int[np.ndarray, " n_kept"]:
+def representatives(points: Points) -> Int[np.ndarray, " n_kept"]:
     """The first of each group of points that coincide."""
     n = len(points)
     radius = MERGE * np.ptp(points, axis=0).max(initial=0.0)
@@ -198,6 +199,16 @@ def _delaunay(points: Points) -> Int[np.ndarray, "n_simplices n_vertices"]:
     if n == d + 1:
         return np.arange(n)[None]
     return Delaunay(points).simplices.astype(np.intp)
+
+
+def _well_conditioned(matrices: Float64[np.ndarray, "n m m"]) -> Bool[np.ndarray, " n"]:
+    """Which matrices have an inverse to rely on, by their condition number in the largest row sum."""
+    invertible = np.linalg.det(matrices) != 0
+    inverses = np.linalg.inv(
+        np.where(invertible[:, None, None], matrices, np.eye(matrices.shape[1]))
+    )
+    size, inverse_size = (np.abs(m).sum(axis=2).max(axis=1) for m in (matrices, inverses))
+    return invertible & (size * inverse_size < SINGULAR)
 
 
 def _inside_interval(
