@@ -1,5 +1,6 @@
 """Cameras, windows, passes, the denoiser, and what the doctor says."""
 
+import subprocess
 import sys
 from pathlib import Path
 
@@ -125,3 +126,27 @@ def test_the_llvm_of_the_environment_is_found(monkeypatch):
     chosen = find_llvm()
     assert chosen is not None
     assert (str(chosen.path), chosen.version) == ("/somewhere/libLLVM-20.so", 20)
+
+
+def test_without_llvm_a_file_stands_for_the_table(tmp_path):
+    """In a process of its own, as a variant is set once. A Lambertian sphere looks the same either way."""
+    trial = f"""
+import numpy as np
+from halfway.render import Renderer, variant
+variant.find_llvm = lambda: None
+from halfway.brdf import TabularBrdf
+from halfway.halfdiff import Grid
+grid = Grid.merl(4, 4, 8)
+renderer = Renderer("sphere", size=(24, 24), spp=4)
+picture = renderer.picture(TabularBrdf(np.full((3, *grid.shape), 0.2, np.float32), grid))
+import mitsuba
+print(mitsuba.variant(), renderer.exact)
+np.save({str(tmp_path / "picture.npy")!r}, picture)
+"""
+    done = subprocess.run([sys.executable, "-c", trial], capture_output=True, text=True, check=True)
+    assert done.stdout.split() == ["scalar_rgb", "False"]
+    exact = Renderer("sphere", size=(24, 24), spp=4)
+    assert exact.exact
+    inside = slice(6, 18), slice(6, 18)  # at the edge pixels are only partly covered, by other samples
+    picture = np.load(tmp_path / "picture.npy")
+    assert_allclose(picture[inside], exact.picture(GREY)[inside], atol=0.05)

@@ -25,7 +25,7 @@ from .denoise import denoised, denoiser_available, require_denoiser
 from .exposure import Exposure, Layer, no_progress
 from .scenes import SCENES, Scene
 from .studio import studio
-from .variant import register
+from .variant import compiles, load_mitsuba, register
 
 BACKGROUND = 0.03
 """Radiance behind the objects of a scene without a ground."""
@@ -67,7 +67,7 @@ class Renderer:
     Raises
     ------
     RenderError
-        When Mitsuba or LLVM is missing, the scene unknown, a number out of range, a file unreadable.
+        When Mitsuba is missing, the scene unknown, a number out of range, a file unreadable.
 
     Examples
     --------
@@ -97,7 +97,9 @@ class Renderer:
         _require("height", size[1], 1, LARGEST_SIZE)
         _require("spp", spp, 1, LARGEST_SPP)
         _require("bounces", self.bounces, 1, 1000)
-        register()
+        self._variant = load_mitsuba().variant()
+        if self.exact:
+            register()
         if denoise:
             require_denoiser()
         self._denoise = denoise
@@ -106,6 +108,11 @@ class Renderer:
         env, mesh = (None if path is None else Path(path) for path in (env, mesh))
         self._files = env, mesh
         self._stage = Stage(self.scene, size=size, env=env, mesh=mesh)
+
+    @property
+    def exact(self) -> bool:
+        """Whether tables are looked up as they are; without LLVM, files within some 50 dB stand for them."""
+        return compiles(self._variant)
 
     @property
     def linear(self) -> bool:
@@ -134,7 +141,7 @@ class Renderer:
     def fingerprint(self) -> str:
         """Letters that change when anything but the material changes the picture: 32 hexadecimal digits."""
         digest = sha256(
-            f"1 {self.scene} {self.size} {self.spp} {self.seed} {self.bounces} {self._denoise}".encode()
+            f"1 {self.scene} {self.size} {self.spp} {self.seed} {self.bounces} {self._denoise} {self.exact}".encode()
         )
         for path in self._files:
             digest.update(b"none" if path is None else path.read_bytes())

@@ -10,16 +10,15 @@ import mitsuba as mi
 import numpy as np
 
 from ..brdf import TabularBrdf
-from ..halfdiff import Grid
-from . import bsdf as tables_in_mitsuba
 from .assets import read_environment, read_mesh
 from .camera import Window, camera_to_world, fov_degrees, window
 from .exposure import Exposure, Layer
 from .mesh import Mesh, placed, sweep
-from .sampling import buffer
 from .scenes import Camera, Placed, PointLight, Scene
 from .studio import as_bright_as_the_studio, studio
 from .teapot import tessellate
+from .variant import compiles
+from .wardrobe import Files, Tables
 
 PAPER = 0.42
 """Reflectance of the ground."""
@@ -35,8 +34,7 @@ class Stage:
         self._size = size
         self._meshes = _meshes(scene, mesh)
         self._lights = _lights(scene, env)
-        self._grids: list[Grid] = []
-        self._bsdfs: list[Any] = []
+        self._wardrobe = Tables() if compiles(str(mi.variant())) else Files()
         self._scenes: dict[bool, list[Any]] = {}
 
     def objects(self, tables: list[TabularBrdf], exposure: Exposure) -> Layer:
@@ -59,20 +57,12 @@ class Stage:
         return _photograph(scene, _direct(), exposure, self._size)
 
     def _dress(self, tables: list[TabularBrdf]) -> None:
-        grids = [table.grid for table in tables]
-        if grids != self._grids:
+        if self._wardrobe.change(tables):
             self._scenes = {}
-            self._bsdfs = [tables_in_mitsuba.TableBsdf(mi.Properties(), table) for table in tables]
-            self._grids = grids
-            return
-        for bsdf, table in zip(self._bsdfs, tables, strict=True):
-            parameters = mi.traverse(bsdf)
-            parameters["table"] = buffer(tables_in_mitsuba.pack(table))
-            parameters.update()
 
     def _dressed(self, *, ground: bool) -> list[Any]:
         if ground not in self._scenes:
-            self._scenes[ground] = self._load(self._bsdfs, ground=ground)
+            self._scenes[ground] = self._load(self._wardrobe.bsdfs, ground=ground)
         return self._scenes[ground]
 
     def _load(self, bsdfs: list[Any], *, ground: bool) -> list[Any]:
@@ -143,16 +133,21 @@ def _shape(place: Placed, mesh: Mesh | None, bsdf: Any) -> Any:
     return {"type": "sphere", "center": [x, y, z + radius], "radius": radius, "bsdf": bsdf}
 
 
-def _mesh(name: str, mesh: Mesh, bsdf: Any) -> Any:
+def _mesh(kind: str, mesh: Mesh, bsdf: Any) -> Any:
     props = mi.Properties()
     props["mesh_bsdf"] = bsdf
     shape = mi.Mesh(
-        name, len(mesh.positions), len(mesh.faces), has_vertex_normals=True, props=props
+        kind, len(mesh.positions), len(mesh.faces), has_vertex_normals=True, props=props
     )
     parameters = mi.traverse(shape)
-    parameters["vertex_positions"] = mi.Float(mesh.positions.ravel())
-    parameters["vertex_normals"] = mi.Float(mesh.normals.ravel())
-    parameters["faces"] = mi.UInt32(mesh.faces.ravel())
+    arrays = {
+        "vertex_positions": mesh.positions,
+        "vertex_normals": mesh.normals,
+        "faces": mesh.faces,
+    }
+    for name, array in arrays.items():
+        buffer: Any = type(parameters[name])
+        parameters[name] = buffer(array.ravel())
     parameters.update()
     return shape
 

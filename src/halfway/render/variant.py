@@ -19,6 +19,8 @@ from typing import Any
 from ..errors import RenderError
 
 VARIANT = "llvm_ad_rgb"
+FALLBACK = "scalar_rgb"
+"""Without LLVM: Mitsuba's own ``measured`` shows files that stand for the tables."""
 OLDEST_LLVM = 19
 """Dr.Jit refuses 14; 15 and 16 abort the process; 19 and later are known to work."""
 
@@ -57,29 +59,36 @@ def find_llvm() -> Llvm | None:
 
 
 def load_mitsuba() -> Any:
-    """The ``mitsuba`` module with a variant that renders tables set.
-
-    A variant that the program has set before is kept where tables work in it (``llvm_*`` and ``cuda_*``, rgb and
-    mono).
+    """The ``mitsuba`` module with a variant set: the program's own choice, else `VARIANT`, else `FALLBACK` without LLVM.
 
     Raises
     ------
     RenderError
-        When there is no Mitsuba, no LLVM that works, or a variant is set in which tables do not work.
+        When there is no Mitsuba, or ``DRJIT_LIBLLVM_PATH`` names no file.
     """
+    fitting = VARIANT
     if "mitsuba" not in sys.modules:
-        _choose_llvm()
+        fitting = VARIANT if _choose_llvm() else FALLBACK
     mi = _import_mitsuba()
     if mi.variant() is None:
-        mi.set_variant(VARIANT)
-    require_tables(mi.variant())
+        mi.set_variant(fitting)
     return mi
+
+
+def compiles(variant: str) -> bool:
+    """Whether tables can be looked up in this variant: many rays at once, three channels or their luminance."""
+    return re.fullmatch(r"(llvm|cuda)_ad_(rgb|mono)", variant) is not None
 
 
 def register() -> None:
     """Make ``halfway_table`` known to Mitsuba, in the variant that is set, for scenes given as dicts or XML.
 
-    Works with the variants in which tables do; sets one where none is set.
+    Tables work in ``llvm_ad`` and ``cuda_ad`` variants, rgb and mono; one is set where none is.
+
+    Raises
+    ------
+    RenderError
+        In another variant, or without an LLVM library.
 
     Examples
     --------
@@ -88,6 +97,7 @@ def register() -> None:
     >>> mi.load_dict({"type": "halfway_table", "filename": "gold-paint.binary"})    # doctest: +SKIP
     """
     mi = load_mitsuba()
+    require_tables(mi.variant())
     from . import bsdf
 
     if mi.variant() != bsdf.VARIANT:
@@ -101,28 +111,27 @@ def require_tables(variant: str) -> None:
     Raises
     ------
     RenderError
-        For scalar variants (a table is looked up for many rays at once) and spectral ones (it has three channels).
+        Says which variants can, and what they need.
     """
-    if not re.fullmatch(r"(llvm|cuda)_ad_(rgb|mono)", variant):
+    if not compiles(variant):
         raise RenderError(
-            f"The Mitsuba variant {variant} cannot render tables: "
-            f"llvm_ad and cuda_ad variants, rgb or mono, can. Call mi.set_variant({VARIANT!r}) first."
+            f"The Mitsuba variant {variant} cannot look up tables: llvm_ad and cuda_ad variants, rgb or mono, can. "
+            f"Call mi.set_variant({VARIANT!r}) first; it needs LLVM {OLDEST_LLVM} or later. {llvm_advice()}."
         )
 
 
-def _choose_llvm() -> None:
+def _choose_llvm() -> bool:
+    """Whether there is an LLVM library for Dr.Jit to load; it is told which."""
     llvm = find_llvm()
     if llvm is None:
-        raise RenderError(
-            f"No LLVM library of version {OLDEST_LLVM} or later was found, and rendering compiles through it. "
-            f"{llvm_advice()}, or name one in {_PATH_VARIABLE}."
-        )
+        return False
     if not llvm.path.is_file():
         raise RenderError(
             f"{_PATH_VARIABLE} names {llvm.path}, which is no file: expected an LLVM library. "
             "Correct it, or unset it to have one chosen."
         )
     os.environ[_PATH_VARIABLE] = str(llvm.path)
+    return True
 
 
 def _import_mitsuba() -> Any:

@@ -1,0 +1,64 @@
+"""What objects wear: tables as they are, or, without a compiler for them, RGL files that stand for them.
+
+Imported only after `halfway.render.variant.load_mitsuba` has chosen a variant.
+"""
+
+from abc import ABC, abstractmethod
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+import mitsuba as mi
+
+from ..brdf import TabularBrdf
+from ..formats.rgl_writer import write_rgl
+from ..halfdiff import Grid
+
+
+class Wardrobe(ABC):
+    """The BSDFs of a scene's materials."""
+
+    def __init__(self) -> None:
+        self.bsdfs: list[Any] = []
+
+    @abstractmethod
+    def change(self, tables: list[TabularBrdf]) -> bool:
+        """Wear these; whether the BSDFs are other objects than before, so that a scene must be loaded anew."""
+
+
+class Tables(Wardrobe):
+    """Exact tables. A new table of the same grid goes into the old BSDF: nothing is compiled again."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._grids: list[Grid] = []
+
+    def change(self, tables: list[TabularBrdf]) -> bool:
+        from . import bsdf
+        from .sampling import buffer
+
+        grids = [table.grid for table in tables]
+        if grids != self._grids:
+            self.bsdfs = [bsdf.TableBsdf(mi.Properties(), table) for table in tables]
+            self._grids = grids
+            return True
+        for worn, table in zip(self.bsdfs, tables, strict=True):
+            parameters = mi.traverse(worn)
+            parameters["table"] = buffer(bsdf.pack(table))
+            parameters.update()
+        return False
+
+
+class Files(Wardrobe):
+    """RGL files for Mitsuba's own ``measured``, which needs no compiler: within some 50 dB of the table."""
+
+    def change(self, tables: list[TabularBrdf]) -> bool:
+        with TemporaryDirectory(prefix="halfway-") as folder:
+            self.bsdfs = [
+                self._worn(table, Path(folder) / f"{i}.bsdf") for i, table in enumerate(tables)
+            ]
+        return True
+
+    def _worn(self, table: TabularBrdf, path: Path) -> Any:
+        write_rgl(path, table)
+        return mi.load_dict({"type": "measured", "filename": str(path)})
