@@ -99,7 +99,9 @@ def test_a_route_is_that_of_the_package(
     client: TestClient, small_library: ProceduralLibrary
 ) -> None:
     stops = ["material-0", "material-4", "material-2"]
-    view = client.get("/api/route", params={"space": "paper", "pace": "uniform", "stop": stops}).json()
+    view = client.get(
+        "/api/route", params={"space": "paper", "pace": "uniform", "stop": stops}
+    ).json()
     route = Route.through(make_space("paper", small_library), stops)
     used = [small_library.names.index(name) for name in view["names"]]
     assert_allclose(view["knots"], route.knots, rtol=0, atol=0)
@@ -132,6 +134,21 @@ def test_the_downloaded_file_is_the_written_one(
     answer = client.post("/api/export/merl", json={"library": "small", "weights": weights})
     write_merl(tmp_path / "mixed.binary", mix(small_library, Recipe.of("small", weights)))
     assert answer.content == (tmp_path / "mixed.binary").read_bytes()
+
+
+def test_a_material_goes_home_to_mitsuba_too(client: TestClient) -> None:
+    answer = client.post(
+        "/api/export/bsdf", json={"library": "small", "weights": {"material-1": 1}}
+    )
+    assert answer.content.startswith(b"tensor_file\0")
+
+
+def test_an_unknown_format_is_refused(client: TestClient) -> None:
+    answer = client.post(
+        "/api/export/gltf", json={"library": "small", "weights": {"material-1": 1}}
+    )
+    assert answer.status_code == 400
+    assert "expected merl or bsdf" in answer.json()["error"]
 
 
 def test_a_recipe_of_another_library_is_refused(client: TestClient) -> None:

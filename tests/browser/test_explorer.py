@@ -103,7 +103,7 @@ def test_the_downloaded_merl_file_is_the_written_one(
     explorer.open("#space=paper&stops=cherry-235,gold-paint&t=0.37")
     explorer.page.wait_for_selector(".recipe .name")
     with explorer.page.expect_download() as recipe_file:
-        explorer.page.get_by_role("button", name="Recipe JSON").click()
+        explorer.page.get_by_role("button", name="Recipe", exact=True).click()
     with explorer.page.expect_download() as merl_file:
         explorer.page.get_by_role("button", name="MERL file").click()
     recipe = Recipe.from_json(json.loads(recipe_file.value.path().read_text()))

@@ -7,7 +7,7 @@
     GET  /api/tables/{material}     a table as half floats (`blocks`)
     GET  /api/thumbnails            small pictures of all materials, as half floats
     GET  /api/environment           the studio, as half floats
-    POST /api/export/merl           a recipe's MERL file
+    POST /api/export/{format}       a recipe's file: merl or bsdf
     GET  /api/docs.json             this, as OpenAPI
 
 Every mistake is answered as ``{"error": "one line"}``.
@@ -27,7 +27,7 @@ from ..errors import HalfwayError
 from ..library import Library
 from ..tasks import Track, silent
 from .blocks import Block
-from .explorer import Explorer
+from .explorer import SUFFIXES, Explorer
 from .guard import LOOPBACK, Guard
 from .page import Page
 from .schema import LibrarySummary, Problem, RecipeDocument, RouteView, SpaceView
@@ -85,15 +85,15 @@ def _add_queries(app: FastAPI, explorer: Explorer) -> None:
     ) -> RouteView:
         return explorer.route(space, stop, pace)
 
-    @app.post("/api/export/merl", response_class=Response, responses=BYTES)
-    def merl(recipe: RecipeDocument) -> StreamingResponse:
-        header, body = explorer.merl_file(recipe)
+    @app.post("/api/export/{format}", response_class=Response, responses=BYTES)
+    def export(format: Name, recipe: RecipeDocument) -> StreamingResponse:
+        parts = explorer.export(format, recipe)
         headers = {
-            "Content-Length": str(len(header) + len(body)),
-            "Content-Disposition": 'attachment; filename="halfway.binary"',
+            "Content-Length": str(sum(map(len, parts))),
+            "Content-Disposition": f'attachment; filename="halfway{SUFFIXES[format]}"',
         }
         return StreamingResponse(
-            _chunks(header, body), media_type="application/octet-stream", headers=headers
+            _chunks(parts), media_type="application/octet-stream", headers=headers
         )
 
 
@@ -161,7 +161,7 @@ def _block(block: Block, etag: str | None = None) -> Response:
     return Response(block.body, media_type="application/octet-stream", headers=headers)
 
 
-async def _chunks(header: bytes, body: memoryview) -> AsyncIterator[bytes]:
-    yield header
-    for start in range(0, len(body), CHUNK):
-        yield bytes(body[start : start + CHUNK])
+async def _chunks(parts: list[bytes | memoryview]) -> AsyncIterator[bytes]:
+    for part in parts:
+        for start in range(0, len(part), CHUNK):
+            yield bytes(part[start : start + CHUNK])

@@ -8,12 +8,13 @@ from collections import OrderedDict
 from collections.abc import Sequence
 from importlib.metadata import version
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from threading import Lock
 
 import numpy as np
 
-from ..errors import RecipeError, SpaceError
-from ..formats import MerlFile, encode_header
+from ..errors import OutputError, RecipeError, SpaceError
+from ..formats import MerlFile, encode_header, write_brdf
 from ..library import BasisImages, Library, Pca
 from ..render.scenes import SCENES
 from ..render.studio import studio
@@ -42,7 +43,8 @@ TEXTS = {
     "linear": "the two end materials in plain proportion",
 }
 PACES = ("perceptual", "uniform")
-EXPORTS = ("merl",)
+SUFFIXES = {"merl": ".binary", "bsdf": ".bsdf"}
+"""Formats to take a material home in."""
 
 
 class Explorer:
@@ -83,7 +85,7 @@ class Explorer:
                 PointLight(at=light.at, intensity=light.intensity)
                 for light in SCENES["spheres"].points
             ],
-            exports=list(EXPORTS),
+            exports=list(SUFFIXES),
         )
 
     def space_view(self, name: str) -> SpaceView:
@@ -126,16 +128,29 @@ class Explorer:
         picture = studio()
         return Block.of(picture, np.ones(picture.shape[:-1]))
 
-    def merl_file(self, document: RecipeDocument) -> tuple[bytes, memoryview]:
-        """Header and body of the MERL file of a recipe: what ``halfway mix`` writes."""
+    def export(self, format: str, document: RecipeDocument) -> list[bytes | memoryview]:
+        """The file of a recipe, in parts: what ``halfway mix`` writes."""
+        if format not in SUFFIXES:
+            raise OutputError(
+                f"{format!r} is no format to export: expected {' or '.join(SUFFIXES)}."
+            )
         recipe = Recipe.from_json(document.model_dump())
         if recipe.library != self.library.name:
             raise RecipeError(
                 f"the recipe is of the library {recipe.library!r}, and this explorer shows {self.library.name!r}: "
                 "open that library with `halfway view`."
             )
-        merl = MerlFile.from_table(self._mixer.mix(recipe))
-        return encode_header(merl.grid), np.ascontiguousarray(merl.samples, "<f8").data.cast("B")
+        table = self._mixer.mix(recipe)
+        if format == "merl":
+            merl = MerlFile.from_table(table)
+            return [
+                encode_header(merl.grid),
+                np.ascontiguousarray(merl.samples, "<f8").data.cast("B"),
+            ]
+        with TemporaryDirectory(prefix="halfway-") as folder:
+            path = Path(folder) / f"table{SUFFIXES[format]}"
+            write_brdf(path, table)
+            return [path.read_bytes()]
 
     def _space(self, name: str) -> Space:
         with self._lock:

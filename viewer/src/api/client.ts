@@ -32,9 +32,14 @@ export const environment = (): Promise<Block> => block("api/environment");
 
 export const table = (name: string): Promise<Block> => block(`api/tables/${encodeURIComponent(name)}`);
 
-export async function merlFile(recipe: RecipeDocument): Promise<Blob> {
+/** The mixed table as a file, in one of the library's `exports`. */
+export async function exported(format: string, recipe: RecipeDocument): Promise<Blob> {
   const headers = { "Content-Type": "application/json" };
-  const answer = await ask("api/export/merl", { method: "POST", headers, body: JSON.stringify(recipe) });
+  const answer = await ask(`api/export/${encodeURIComponent(format)}`, {
+    method: "POST",
+    headers,
+    body: JSON.stringify(recipe),
+  });
   return answer.blob();
 }
 

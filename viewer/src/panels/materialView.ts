@@ -75,26 +75,53 @@ function paint(
   const { store, tables } = context;
   const { library } = store.get();
   const painter = new Painter(canvas, tables, library.lights, toEnvironment(context.environment));
+  // A slow card, or none, draws fewer pixels while something moves, and all of them when nothing does.
   let quality = 1;
+  let refined = true;
+  let idle = 0;
   const measured = new Set<Light>();
+  const hold = el("canvas.view.hold", { "aria-hidden": "true", hidden: true });
+  canvas.after(hold);
   const fitSize = () => {
     const ratio = Math.min(window.devicePixelRatio || 1, 2);
     const [width, height] = [panel.clientWidth * ratio, panel.clientHeight * ratio];
-    const scale = quality * Math.min(1, Math.sqrt(MOST_PIXELS / (width * height)));
+    const scale = (refined ? 1 : quality) * Math.min(1, Math.sqrt(MOST_PIXELS / (width * height)));
     painter.resize(Math.round(width * scale), Math.round(height * scale));
     const { shape, orbit, light } = store.get();
     painter.look(shape, orbit, light);
   };
-  /** A slow card, or none, draws fewer pixels. */
   const measure = (name: string, light: Light) => {
     const milliseconds = measured.has(light) ? null : painter.measure(name);
     if (milliseconds === null) return;
     measured.add(light);
-    const smaller = Math.max(0.4 / quality, Math.min(1, Math.sqrt(PATIENCE / milliseconds)));
-    loop.passMilliseconds = milliseconds * smaller ** 2;
-    if (smaller === 1) return;
-    quality *= smaller;
+    const share = Math.max(0.4, Math.min(1, Math.sqrt(PATIENCE / milliseconds)));
+    loop.passMilliseconds = milliseconds * share ** 2;
+    if (share >= quality) return;
+    quality = share;
+    refined = false;
     fitSize();
+  };
+  const refine = () => {
+    keep();
+    refined = true;
+    loop.passMilliseconds /= quality ** 2;
+    fitSize();
+    loop.goOn();
+  };
+  const coarsen = () => {
+    window.clearTimeout(idle);
+    if (!refined || quality === 1) return;
+    keep();
+    refined = false;
+    loop.passMilliseconds *= quality ** 2;
+    fitSize();
+  };
+  /** The picture as it is stays on top until the new one has come. */
+  const keep = () => {
+    hold.width = canvas.width;
+    hold.height = canvas.height;
+    hold.getContext("2d")!.drawImage(canvas, 0, 0);
+    hold.hidden = false;
   };
   const loop = new Loop(() => {
     const { recipe, otherRecipe, split, exposure, light } = store.get();
@@ -112,6 +139,10 @@ function paint(
       : `${samples} / ${painter.targetSamples} samples`;
     const share = missing.length ? 1 - missing.length / names.length : samples / painter.targetSamples;
     progress.style.transform = `scaleX(${share < 1 ? share : 0})`;
+    if (samples >= (refined && quality < 1 ? Math.min(SAMPLES_TO_SHOW, painter.targetSamples) : 1))
+      hold.hidden = true;
+    window.clearTimeout(idle);
+    if (!working && !ahead && samples > 0 && !refined) idle = window.setTimeout(refine, 800);
     panel.dataset.samples = String(samples);
     panel.dataset.ready = String(samples > 0);
     return working || ahead;
@@ -128,6 +159,7 @@ function paint(
   store.watch(
     ({ shape, orbit, light }) => [shape, orbit, light] as const,
     ([shape, orbit, light]) => {
+      coarsen();
       painter.look(shape, orbit, light);
       loop.run();
     },
@@ -152,6 +184,8 @@ function paint(
 
 const N_AHEAD = 12;
 const SAMPLES_AHEAD = 4;
+/** With so many, a picture of all pixels is less noisy than what it replaces. */
+const SAMPLES_TO_SHOW = 48;
 const MOST_PIXELS = 1.4e6;
 /** Milliseconds that a pass over one material may take before the picture is made smaller. */
 const PATIENCE = 40;

@@ -68,51 +68,63 @@ function fill(row: HTMLLIElement, { weight }: Ingredient): void {
     : `${weight.map(percent).join(" · ")} %`;
 }
 
+const FORMATS: Readonly<Record<string, { text: string; suffix: string; title: string }>> = {
+  merl: {
+    text: "MERL file",
+    suffix: "binary",
+    title: "The full table as a MERL file (35 MB on the MERL grid)",
+  },
+  bsdf: { text: ".bsdf", suffix: "bsdf", title: "For Mitsuba's `measured` material; takes some seconds" },
+};
+
 function exports({ store }: Context): HTMLElement {
-  const document = () => toDocument(store.get().library.name, store.get().recipe);
+  const recipe = () => toDocument(store.get().library.name, store.get().recipe);
   const title = () => {
     const { stops, t } = store.get();
     return `${stops[0]}-to-${stops.at(-1)}-${t.toFixed(3)}`;
   };
-  const merl = el(
-    "button.button.main",
-    { type: "button", title: "The full table as a MERL file (35 MB on the MERL grid)" },
-    {
-      onclick: async () => {
-        merl.disabled = true;
-        try {
-          download(await api.merlFile(document()), `${title()}.binary`);
-        } catch (error) {
-          store.set({ problem: (error as Error).message });
-        }
-        merl.disabled = false;
+  const tables = store.get().library.exports.map((format, i) => {
+    const { text, suffix, title: about } = FORMATS[format] ?? { text: format, suffix: format, title: "" };
+    const button = el(
+      i === 0 ? "button.button.main" : "button.button",
+      { type: "button", title: about },
+      {
+        onclick: async () => {
+          button.disabled = true;
+          const name = `${title()}.${suffix}`;
+          try {
+            download(await api.exported(format, recipe()), name);
+          } catch (error) {
+            store.set({ problem: (error as Error).message });
+          }
+          button.disabled = false;
+        },
       },
-    },
-    "MERL file",
-  );
+      text,
+    );
+    return button;
+  });
   const json = el(
     "button.button",
     { type: "button", title: "The weights, as `halfway mix` reads them" },
     {
-      onclick: () =>
-        download(
-          new Blob([`${JSON.stringify(document(), null, 1)}\n`], { type: "application/json" }),
-          `${title()}.json`,
-        ),
+      onclick: () => {
+        const text = `${JSON.stringify(recipe(), null, 1)}\n`;
+        download(new Blob([text], { type: "application/json" }), `${title()}.json`);
+      },
     },
-    "Recipe JSON",
+    "Recipe",
   );
   const png = el(
     "button.button",
     { type: "button", title: "The picture, with a transparent background" },
     {
       onclick: () => {
-        window.document
-          .querySelector<HTMLCanvasElement>("#material")
-          ?.toBlob((blob) => blob && download(blob, `${title()}.png`));
+        const canvas = document.querySelector<HTMLCanvasElement>("#material");
+        canvas?.toBlob((blob) => blob && download(blob, `${title()}.png`));
       },
     },
     "Picture",
   );
-  return el("div.actions", {}, {}, merl, json, png);
+  return el("div.actions", {}, {}, ...tables, json, png);
 }

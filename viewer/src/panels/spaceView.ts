@@ -11,6 +11,8 @@ import { Scores, weightIn } from "../render/display";
 
 const APPEARANCE = "Looks";
 const ROUTE_POINTS = 160;
+/** About what a label takes, in CSS pixels. */
+const LABEL = { width: 150, height: 23 };
 /** A pointer that moved less between down and up was a click, in CSS pixels. */
 const STILL = 4;
 
@@ -125,9 +127,17 @@ export function spaceView(context: Context): HTMLElement {
     const { stops, hovered } = store.get();
     if (cloud.placement === null) return;
     const shownNames = [...new Set([...(hovered ? [hovered] : []), ...stops])];
+    const taken: { x: number; y: number }[] = [];
     const items = shownNames.map((name) => {
       const point = cloud.placement!.points[indices.get(name)!]!;
-      const { x, y } = cloud.project(point);
+      const { x, y: middle } = cloud.project(point);
+      // Below a label that is in the way already.
+      let y = middle;
+      while (
+        taken.some((other) => Math.abs(other.y - y) < LABEL.height && Math.abs(other.x - x) < LABEL.width)
+      )
+        y += 4;
+      taken.push({ x, y });
       const label = el(name === hovered ? "div.label.hovered" : "div.label", {}, {}, name);
       const gap = cloud.radius(point) * 1.5 + 5;
       const aside = x > canvas.clientWidth * 0.62 ? `calc(-100% - ${gap}px)` : `${gap}px`;
