@@ -25,14 +25,9 @@ from halfway.library import (
 from halfway.library.basis_samples import body_mask
 from halfway.models import AbcModel
 from halfway.space import LinearSpace, PaperSpace, Space, Triangulation
-from halfway.space.evaluation import N_STEPS, Bench, evaluate, sample_pairs, uniform_pace
-from halfway.space.leave_one_out import (
-    PaperPlace,
-    _project,
-    hull_weights,
-    leave_one_out,
-    nearest_in_hull,
-)
+from halfway.space.evaluation import N_STEPS, Bench, evaluate, sample_pairs, uniform
+from halfway.space.hull import nearest_in_hull
+from halfway.space.leave_one_out import PaperPlace, _project, hull_weights, leave_one_out
 from halfway.space.spaces import Leg
 
 GRID = Grid.merl(10, 8, 12)
@@ -137,14 +132,24 @@ def test_one_step_that_goes_all_the_way_is_n_minus_1_times_the_mean(
     bench: Bench, linear: LinearSpace
 ):
     paces = {
-        "uniform": uniform_pace,
-        "leap": lambda leg, n: np.append(np.zeros(n - 1), leg.knots[-1]),
+        "uniform": uniform,
+        "leap": lambda route: dataclasses.replace(
+            route,
+            knots=np.array([0.0, 1 - 1 / (N_STEPS - 1), 1.0]),
+            weights=route.weights[:, [0, 0, -1]],
+        ),
     }
     evaluation = evaluate(linear, bench, PAIRS, paces=paces)
     for jumps in (evaluation.jump, evaluation.judged_jump):
         assert list(jumps) == ["uniform", "leap"]
         assert_allclose(jumps["leap"], N_STEPS - 1, rtol=1e-4)
         assert (jumps["uniform"] < 10).all()
+
+
+def test_the_perceptual_pace_evens_the_steps(bench: Bench, linear: LinearSpace):
+    jumps = evaluate(linear, bench, PAIRS).jump
+    assert (jumps["perceptual"] < 1.05).all()
+    assert jumps["uniform"].min() > 1.3
 
 
 def test_plain_mixing_has_no_hue_excursion(bench: Bench, linear: LinearSpace):
@@ -265,11 +270,15 @@ def test_outside_the_hull_the_nearest_point_has_all_materials_behind_it(seed: in
 def test_the_papers_space_wanders_where_plain_mixing_does_not(shared_data):
     """On neural fits of the MERL materials; in full: median detour 3.9, 90th percentile 12, uniform jump 4.6."""
     brdfs = read_nbrdf_archive(shared_data / "nbrdf" / "merl_nbrdf.zip")
-    coarse = ProceduralLibrary("coarse", brdfs, grid=Grid.merl(30, 18, 24))
-    bench = bench_of(coarse, size=16, n_cells=2000)
-    pairs = sample_pairs(len(coarse), 60, seed=1)
-    paper = evaluate(PaperSpace.fit(coarse, Pca.fit(coarse)), bench, pairs).to_json()
-    linear = evaluate(LinearSpace(coarse.name, coarse.names), bench, pairs).to_json()
+    coarse = ProceduralLibrary("coarse", brdfs, grid=Grid.merl(24, 12, 16))
+    bench = bench_of(coarse, size=12, n_cells=1000)
+    pairs = sample_pairs(len(coarse), 40, seed=1)
+    paper = evaluate(
+        PaperSpace.fit(coarse, Pca.fit(coarse)), bench, pairs, paces={"uniform": uniform}
+    ).to_json()
+    linear = evaluate(
+        LinearSpace(coarse.name, coarse.names), bench, pairs, paces={"uniform": uniform}
+    ).to_json()
     assert 2.5 < paper["detour"]["median"] < 6
     assert 3 < paper["jump"]["uniform"]["median"] < 7
     assert paper["hue_excursion"]["median"] > 15
