@@ -120,6 +120,29 @@ def test_every_space_can_be_looked_at(
         assert {i for edge in embedding["edges"] for i in edge} <= set(range(len(small_library)))
 
 
+def test_the_place_of_a_material_is_that_material(client: TestClient) -> None:
+    for space in ("anchored", "paper"):
+        embeddings = client.get(f"/api/spaces/{space}").json()["embeddings"]
+        point = [x for embedding in embeddings for x in embedding["points"][4]]
+        view = client.post("/api/place", json={"space": space, "point": point}).json()
+        assert view["recipe"]["weights"] == {"material-4": 1.0}
+        assert view["inside"]
+        assert_allclose(view["point"], point)
+
+
+def test_a_place_outside_is_answered_by_the_nearest_mix(client: TestClient) -> None:
+    embeddings = client.get("/api/spaces/anchored").json()["embeddings"]
+    point = [100 * x + 1 for embedding in embeddings for x in embedding["points"][0]]
+    view = client.post("/api/place", json={"space": "anchored", "point": point}).json()
+    assert not view["inside"]
+    assert sum(view["recipe"]["weights"].values()) == pytest.approx(1)
+
+
+def test_the_linear_space_has_no_places(client: TestClient) -> None:
+    answer = client.post("/api/place", json={"space": "linear", "point": [0, 0, 0]})
+    assert answer.status_code == 400
+
+
 # Taking a material home
 
 

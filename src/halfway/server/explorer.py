@@ -18,7 +18,17 @@ from ..formats import MerlFile, encode_header, write_brdf
 from ..library import BasisImages, Library, Pca
 from ..render.scenes import SCENES
 from ..render.studio import studio
-from ..space import SPACES, Mixer, Recipe, Route, Space, make_space, perceptual
+from ..space import (
+    SPACES,
+    AnchoredSpace,
+    Mixer,
+    PaperSpace,
+    Recipe,
+    Route,
+    Space,
+    make_space,
+    perceptual,
+)
 from ..tasks import Track, silent
 from .blocks import Block
 from .embedding import look_at
@@ -26,6 +36,8 @@ from .schema import (
     Axis,
     LibrarySummary,
     Material,
+    Place,
+    PlaceView,
     PointLight,
     RecipeDocument,
     RouteView,
@@ -37,6 +49,8 @@ from .schema import (
 N_TABLES = 16
 """Tables kept ready to be sent, 11.7 MB each on the MERL grid."""
 MAX_STOPS = 32
+INSIDE = 1e-6
+"""A place counts as reached within this share of the extent of each coordinate."""
 TEXTS = {
     "anchored": "one recipe for all channels; keeps body colours on the straight way between them",
     "paper": "one triangulation per channel, of its first three scores",
@@ -103,6 +117,30 @@ class Explorer:
         route = Route.through(self._space(space), stops)
         return to_view(perceptual(route, self._pictures) if pace == "perceptual" else route)
 
+    def place(self, place: Place) -> PlaceView:
+        """The material at a free place of a space."""
+        space = self._space(place.space)
+        point = np.array(place.point)
+        match space:
+            case AnchoredSpace():
+                recipe = space.recipe(point, clamp=True)
+                reached = self._dense(recipe)[0] @ space.points
+                inside = bool(
+                    np.abs((reached - point) / np.ptp(space.points, axis=0)).max() < INSIDE
+                )
+                return to_place(recipe, reached, inside=inside)
+            case PaperSpace():
+                n_axes = space.triangulations[0].points.shape[1]
+                if point.size != 3 * n_axes:
+                    raise SpaceError(
+                        f"the point has {point.size} coordinates: expected {n_axes} for each channel."
+                    )
+                return to_place(space.recipe(point.reshape(3, n_axes)), point, inside=True)
+            case _:
+                raise SpaceError(
+                    f"the space {place.space!r} has no places between its routes: choose another space."
+                )
+
     def table(self, name: str) -> Block:
         """The table of one material."""
         with self._lock:
@@ -152,11 +190,23 @@ class Explorer:
             write_brdf(path, table)
             return [path.read_bytes()]
 
+    def _dense(self, recipe: Recipe) -> np.ndarray:
+        """Weights over all materials, (3, N)."""
+        weights = np.zeros((3, len(self.library)))
+        weights[:, [self.library.index(name) for name in recipe.names]] = recipe.weights
+        return weights
+
     def _space(self, name: str) -> Space:
         with self._lock:
             if name not in self._spaces:
                 self._spaces[name] = make_space(name, self.library, cache=self._cache)
             return self._spaces[name]
+
+
+def to_place(recipe: Recipe, point: np.ndarray, *, inside: bool) -> PlaceView:
+    """A place with its recipe."""
+    document = RecipeDocument.model_validate(recipe.to_json())
+    return PlaceView(recipe=document, point=point.tolist(), inside=inside)
 
 
 def to_view(route: Route) -> RouteView:

@@ -142,3 +142,20 @@ class RecipeDocument(Model):
 
     library: str
     weights: ChannelWeights | WeightsByName
+
+
+class Place(Model):
+    """A free place in a space: the coordinates of its embeddings, one embedding after another."""
+
+    space: str
+    point: Annotated[list[float], Field(min_length=1, max_length=24)]
+
+
+class PlaceView(Model):
+    """The material at a place."""
+
+    recipe: RecipeDocument
+    point: list[float]
+    """Where it is: the place asked for, or the nearest that is a mix."""
+    inside: bool
+    """Whether the place asked for is a mix."""

@@ -97,3 +97,16 @@ export interface RecipeDocument {
   readonly library: string;
   readonly weights: ChannelWeights | Readonly<Record<string, number>>;
 }
+
+/** A free place in a space: the coordinates of its embeddings, one embedding after another. */
+export interface Place {
+  readonly space: string;
+  readonly point: readonly number[];
+}
+
+/** The material at a place. */
+export interface PlaceView {
+  readonly recipe: RecipeDocument;
+  readonly point: readonly number[];
+  readonly inside: boolean;
+}
