@@ -204,8 +204,18 @@ def test_the_plugin_reads_a_file_in_a_dict_and_in_xml(tmp_path):
 
 
 def test_the_plugin_needs_a_table():
-    with pytest.raises(RuntimeError, match="neither a filename nor values"):
+    with pytest.raises(RuntimeError, match="neither a filename, nor a recipe, nor values"):
         mi.load_dict({"type": "halfway_table"})
+
+
+def test_the_plugin_mixes_a_recipe_of_the_built_in_library():
+    gold, teflon, mixed = (
+        mi.load_dict({"type": "halfway_table", "recipe": recipe})
+        for recipe in ("gold-paint=1", "teflon=1", "gold-paint=0.7, teflon=0.3")
+    )
+    args = mi.BSDFContext(), seen_from(30), mi.Vector3f(0.0, 0.6, 0.8)
+    expected = 0.7 * np.array(gold.eval(*args)) + 0.3 * np.array(teflon.eval(*args))
+    assert_allclose(mixed.eval(*args), expected, rtol=1e-5)
 
 
 def test_values_in_a_dict_make_a_table():

@@ -25,9 +25,13 @@ import numpy as np
 
 from ..brdf import TabularBrdf, tabulate
 from ..errors import RenderError
+from ..formats import read_brdf
 from ..halfdiff import MERL, Axis, Grid
+from ..library import open_library
+from ..space import Mixer, Recipe
 from .sampling import HalfVectorSampling, buffer
 
+DEFAULT_LIBRARY = "builtin:merl-abc"
 VARIANT = mi.variant()
 """The Mitsuba variant that `TableBsdf` belongs to."""
 UNMEASURED = -1e30
@@ -41,6 +45,10 @@ class TableBsdf(mi.BSDF):
     ----------
     filename : string
         A file of any format that halfway reads.
+    recipe : string
+        In place of a file: ``"gold-paint=0.7, teflon=0.3"``.
+    library : string
+        Of the recipe: ``builtin:NAME`` (by default ``builtin:merl-abc``), a library folder, an archive of neural fits.
     values : tensor, float32, shape (3, n_theta_h, n_theta_d, n_phi_d)
         In place of a file: f_r in 1/sr at the cell centres of a MERL grid, NaN where unmeasured.
 
@@ -191,11 +199,17 @@ def _read(props: Any) -> TabularBrdf:
     if "values" in props:
         values = np.array(props["values"], np.float32)
         return TabularBrdf(values, Grid.merl(*values.shape[1:]), name=props.id())
+    if "recipe" in props:
+        return _mixed(props.get("library", DEFAULT_LIBRARY), props["recipe"])
     if "filename" in props:
-        from ..formats import read_brdf
-
-        resolver: Any = mi.file_resolver()  # pyright: ignore[reportCallIssue]
-        path = Path(str(resolver.resolve(props["filename"])))
+        resolver: Any = mi.file_resolver()
+        path = Path(str(resolver.resolve(props["filename"])))  # pyright: ignore[reportCallIssue]
         brdf = read_brdf(path)
         return brdf if isinstance(brdf, TabularBrdf) else tabulate(brdf, MERL, name=path.stem)
-    raise RenderError("A halfway_table has neither a filename nor values: expected one of them.")
+    raise RenderError(
+        "A halfway_table has neither a filename, nor a recipe, nor values: expected one of them."
+    )
+
+
+def _mixed(library: str, recipe: str) -> TabularBrdf:
+    return Mixer(open_library(library)).mix(Recipe.from_text(library, recipe))
