@@ -2,16 +2,22 @@
 
 from .albedo import directional_albedo, hemisphere
 from .brdf import Brdf, IsotropicModel
+from .check import ValidityCard, check
 from .metrics import Difference, difference
+from .repair import Repaired, repair
 from .table import TabularBrdf, tabulate
 
 __all__ = [
     "Brdf",
     "Difference",
     "IsotropicModel",
+    "Repaired",
     "TabularBrdf",
+    "ValidityCard",
+    "check",
     "difference",
     "directional_albedo",
     "hemisphere",
+    "repair",
     "tabulate",
 ]

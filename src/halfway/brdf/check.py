@@ -1,0 +1,199 @@
+"""Is a BRDF physically sound? The validity card; `repair` mends what is not.
+
+The laws, and how each is measured:
+
+    finite         no sample is infinite
+    non-negative   no value is below 0
+    reciprocal     f_r(wi, wo) = f_r(wo, wi), up to `RECIPROCITY_TOLERANCE` of the mean value
+    passive        no direction's albedo is above 1, up to `ALBEDO_TOLERANCE`, the error of its integral
+
+All four survive mixing: a mix of sound materials is sound.
+"""
+
+import math
+from collections.abc import Iterator
+from dataclasses import asdict, dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from .._types import Directions, Table, Values
+from ..halfdiff import MERL, Grid, HalfDiff, from_half_diff
+from .albedo_operator import albedos
+from .brdf import Brdf
+from .table import TabularBrdf, tabulate
+
+RECIPROCITY_TOLERANCE = 0.01
+ALBEDO_TOLERANCE = 0.005
+
+STEEP_DEGREES = np.arange(0.0, 81, 5)
+GRAZING_DEGREES = np.array([82.5, 85.0, 87.5, 89.0])
+
+_LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
+_MIRROR = np.array([1.0, -1.0, 1.0])
+_N_PAIRS = 4096
+_STRIDE = 7  # of the cells whose median is taken; no divisor of an axis of the MERL grid
+_LEAST_CONTRAST = 1.1  # of a highlight to the floor around it
+
+
+@dataclass(frozen=True)
+class ValidityCard:
+    """What can be said of a BRDF without knowing the material."""
+
+    name: str
+    n_infinite: int
+    """Samples that are infinite."""
+    minimum: float
+    """Of the measured samples, in 1/sr; NaN where there is none."""
+    unmeasured: float
+    """Share of the grid's cells."""
+    n_holes: int
+    """Unmeasured cells with both directions above the horizon."""
+    n_below_horizon: int
+    """Measured cells with a direction below the horizon."""
+    reciprocity_error: float
+    """Mean of |f_r(wi, wo) - f_r(wo, wi)| over the mean of f_r, both times cos_i cos_o."""
+    bilateral_error: float
+    """The same for a pair and its mirror image. No law: a brushed or woven material may tell them apart."""
+    max_albedo: float
+    """Largest of the channels, for light from 0 to 80 degrees."""
+    max_albedo_degrees: float
+    max_albedo_grazing: float
+    """The same from 80 to 90 degrees, where measurements are least certain."""
+    highlight_degrees: float | None
+    """theta_h of the brightest value near normal incidence; None without a highlight."""
+    highlight_width_degrees: float | None
+    """From there to half of the height above the floor."""
+    dynamic_range: float
+    """Largest over median luminance."""
+    broken: tuple[str, ...] = ()
+    """The laws it breaks, each as the end of a sentence with numbers."""
+
+    @property
+    def mask_is_the_grids(self) -> bool:
+        """Whether the unmeasured cells are those with a direction below the horizon, and no others."""
+        return self.n_holes == self.n_below_horizon == 0
+
+    @property
+    def ok(self) -> bool:
+        """Whether no law is broken."""
+        return not self.broken
+
+    def as_json(self) -> dict[str, Any]:
+        """The card for a program to read; what is infinite or not a number becomes None."""
+        card = {
+            name: None if isinstance(value, float) and not math.isfinite(value) else value
+            for name, value in asdict(self).items()
+        }
+        more = {"mask_is_the_grids": self.mask_is_the_grids, "broken": list(self.broken)}
+        return {"ok": self.ok, **card, **more}
+
+
+def check(brdf: Brdf, *, grid: Grid = MERL) -> ValidityCard:
+    """The validity card of a BRDF; one that is no table is looked at on ``grid`` and at pairs in between."""
+    table = brdf if isinstance(brdf, TabularBrdf) else tabulate(brdf, grid)
+    measured = ~np.isnan(table.values).any(axis=0)
+    mask = table.grid.mask()
+    wi, wo = _pairs()
+    with np.errstate(invalid="ignore", over="ignore"):
+        # What is exchanged between two directions, so that grazing pairs count for what they carry.
+        exchanged = wi[:, 2:] * wo[:, 2:]
+        at_pairs, swapped, mirrored = (
+            brdf.eval(*pair) * exchanged
+            for pair in ((wi, wo), (wo, wi), (wi * _MIRROR, wo * _MIRROR))
+        )
+        albedo = albedos(table, np.radians([*STEEP_DEGREES, *GRAZING_DEGREES])).max(axis=1)
+    steep, grazing = np.split(albedo, [len(STEEP_DEGREES)])
+    worst = int(steep.argmax())
+    peak, width = _highlight(brdf)
+    card = ValidityCard(
+        name=str(getattr(brdf, "name", "")),
+        n_infinite=int(np.isinf(table.values).sum()),
+        minimum=_least(table.values, at_pairs / exchanged),
+        unmeasured=float(1 - measured.mean()),
+        n_holes=int((mask & ~measured).sum()),
+        n_below_horizon=int((measured & ~mask).sum()),
+        reciprocity_error=_relative_difference(swapped, at_pairs),
+        bilateral_error=_relative_difference(mirrored, at_pairs),
+        max_albedo=float(steep[worst]),
+        max_albedo_degrees=float(STEEP_DEGREES[worst]),
+        max_albedo_grazing=float(grazing.max()),
+        highlight_degrees=peak,
+        highlight_width_degrees=width,
+        dynamic_range=_dynamic_range(table.values),
+    )
+    return replace(card, broken=tuple(_broken(card)))
+
+
+def _broken(card: ValidityCard) -> Iterator[str]:
+    if card.n_infinite:
+        yield f"{card.n_infinite:,} samples are infinite"
+    if math.isnan(card.minimum):
+        yield "nothing is measured"
+    if card.minimum < 0:
+        yield f"goes down to {card.minimum:.3g} /sr"
+    if card.reciprocity_error > RECIPROCITY_TOLERANCE:
+        yield f"changes by {card.reciprocity_error:.1%} of its mean when light and viewer are swapped"
+    if card.n_infinite:
+        return  # and so is every integral
+    if card.max_albedo > 1 + ALBEDO_TOLERANCE:
+        yield f"reflects {card.max_albedo:.3g} times the light from {card.max_albedo_degrees:.0f} degrees"
+    if card.max_albedo_grazing > 1 + ALBEDO_TOLERANCE:
+        yield f"reflects {card.max_albedo_grazing:.3g} times the light from above 80 degrees"
+
+
+def _pairs() -> tuple[Directions, Directions]:
+    """Pairs above the horizon, spread evenly over the positions of a MERL table by an additive recurrence.
+
+    M. Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018: powers of 1/1.22074, for three dimensions.
+    """
+    position = np.outer(np.arange(1, _N_PAIRS + 1), 1.2207440846057596 ** -np.arange(1.0, 4)) % 1
+    theta_h, theta_d, phi_d = (
+        axis.to_angle(axis.size * x) for axis, x in zip(MERL.axes, position.T, strict=True)
+    )
+    wi, wo = from_half_diff(HalfDiff(theta_h, np.zeros_like(theta_h), theta_d, phi_d))
+    lit = (wi[:, 2] > 0) & (wo[:, 2] > 0)
+    return wi[lit], wo[lit]
+
+
+def _relative_difference(a: Values, b: Values) -> float:
+    known = np.isfinite(a) & np.isfinite(b)
+    scale = np.abs(b[known]).sum()
+    return float(np.abs(a[known] - b[known]).sum() / scale) if scale > 0 else 0.0
+
+
+def _least(*samples: np.ndarray) -> float:
+    """The smallest that is a number; NaN without one."""
+    return float(np.fmin(*(np.fmin.reduce(values, axis=None) for values in samples)))
+
+
+def _highlight(brdf: Brdf) -> tuple[float | None, float | None]:
+    """theta_h in degrees of the brightest value near normal incidence, and on to half its height; None without one."""
+    degrees = 75 * np.linspace(0, 1, 400) ** 2
+    theta_h, phi_d = np.radians(degrees)[:, None], np.pi * (np.arange(8) + 0.5) / 8
+    theta_d = np.radians(5.0)
+    wi, wo = from_half_diff(HalfDiff(theta_h, np.zeros((1, 1)), np.full((1, 1), theta_d), phi_d))
+    values = brdf.eval(wi, wo) @ _LUMINANCE
+    known = np.isfinite(values)
+    counts = known.sum(axis=1)
+    degrees = degrees[counts > 0]
+    profile = (np.where(known, values, 0).sum(axis=1) / np.maximum(counts, 1))[counts > 0]
+    if not profile.size or profile.max() <= _LEAST_CONTRAST * max(profile.min(), 0):
+        return None, None
+    i_peak = int(profile.argmax())
+    below = np.flatnonzero(profile[i_peak:] < (profile.max() + profile.min()) / 2)
+    width = float(degrees[i_peak + below[0]] - degrees[i_peak]) if below.size else None
+    return float(degrees[i_peak]), width
+
+
+def _dynamic_range(values: Table) -> float:
+    """Largest over median luminance of the finite samples; 1 where all is black."""
+    with np.errstate(invalid="ignore"):
+        luminance = _LUMINANCE.astype(np.float32) @ values.reshape(3, -1)
+    some = luminance[::_STRIDE]
+    median = float(np.median(some[np.isfinite(some)])) if np.isfinite(some).any() else 0.0
+    return (
+        float(np.max(luminance, where=np.isfinite(luminance), initial=0)) / median
+        if median > 0
+        else 1.0
+    )
