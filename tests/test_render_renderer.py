@@ -1,5 +1,7 @@
 """Pictures of whole scenes."""
 
+import re
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
@@ -104,6 +106,7 @@ def test_a_mesh_stands_in_for_the_teapot(tmp_path):
         ({"size": (10, 9000)}, "height is 9000: expected 1 to 8192"),
         ({"spp": 0}, "spp is 0: expected 1 to 65536"),
         ({"bounces": 0}, "bounces is 0: expected 1 to"),
+        ({"seed": -1}, "seed is -1: expected 0 to 4294967295"),
         ({"mesh": "none.ply"}, "mesh none.ply does not exist"),
         ({"mesh": "dragon.stl"}, r"mesh dragon.stl is of an unknown kind: expected .ply or .obj"),
         ({"env": "sky.jpg"}, r"environment sky.jpg is of an unknown kind: expected .hdr or .exr"),
@@ -126,6 +129,7 @@ def test_a_damaged_file_is_refused_in_one_line(tmp_path, name, text):
     with pytest.raises(RenderError, match=name) as caught:
         Renderer(**{option: path})
     assert "\n" not in str(caught.value)
+    assert not re.search(r"\[\w+\.(cpp|h):", str(caught.value))  # nothing of Mitsuba's inside
 
 
 def test_the_studio_is_light_above_and_never_black():

@@ -3,6 +3,7 @@
 Imported only after `halfway.render.variant.load_mitsuba` has chosen a variant.
 """
 
+import re
 from collections.abc import Generator
 from contextlib import contextmanager
 from pathlib import Path
@@ -26,7 +27,7 @@ def read_mesh(path: Path) -> Mesh:
         positions = np.array(parameters["vertex_positions"]).reshape(-1, 3)
         normals = np.array(parameters["vertex_normals"]).reshape(-1, 3)
     except RuntimeError as error:
-        raise RenderError(f"The mesh {path} cannot be read: {_first_line(error)}") from error
+        raise RenderError(f"The mesh {path} cannot be read: {_reason(error)}") from error
     if not len(faces) or not np.isfinite(positions).all():
         raise RenderError(
             f"The mesh {path} has {len(faces)} triangles and {np.isnan(positions).sum()} missing coordinates: "
@@ -43,7 +44,7 @@ def read_environment(path: Path) -> np.ndarray:
             mi.Bitmap.PixelFormat.RGB, mi.Struct.Type.Float32, False
         )
     except RuntimeError as error:
-        raise RenderError(f"The environment {path} cannot be read: {_first_line(error)}") from error
+        raise RenderError(f"The environment {path} cannot be read: {_reason(error)}") from error
     radiance = np.array(bitmap)
     if not np.isfinite(radiance).all() or radiance.max() <= 0:
         raise RenderError(
@@ -64,8 +65,10 @@ def _require_file(path: Path, what: str, suffixes: tuple[str, ...]) -> str:
     return path.suffix.lower()[1:]
 
 
-def _first_line(error: Exception) -> str:
-    return str(error).strip().splitlines()[-1]
+def _reason(error: Exception) -> str:
+    """What Mitsuba says is wrong, without where in Mitsuba it was found: ``[ply.h:163]``, ``[Mesh]``."""
+    said = re.split(r"\[\w+(?:\.\w+:\d+)?\] ", str(error))[-1].strip().rstrip("!.")
+    return f"{' '.join(said.split())}. Export it again, or convert it with another program."
 
 
 @contextmanager

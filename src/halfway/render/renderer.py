@@ -96,6 +96,7 @@ class Renderer:
         _require("width", size[0], 1, LARGEST_SIZE)
         _require("height", size[1], 1, LARGEST_SIZE)
         _require("spp", spp, 1, LARGEST_SPP)
+        _require("seed", seed, 0, 2**32 - 1)
         _require("bounces", self.bounces, 1, 1000)
         self._variant = load_mitsuba().variant()
         if self.exact:

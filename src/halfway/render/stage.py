@@ -20,7 +20,7 @@ from .teapot import tessellate
 from .variant import compiles
 from .wardrobe import Files, Tables
 
-PAPER = 0.42
+PAPER = 0.4
 """Reflectance of the ground."""
 
 

@@ -36,8 +36,8 @@ class SoftBox:
 
 
 LIGHTS = (
-    SoftBox((-6.5, -4.0, 5.0), width=5.0, height=6.5, radiance=15.0),  # key: large, from the left
-    SoftBox((8.0, -2.5, 3.2), width=1.8, height=7.5, radiance=9.0),  # fill: a tall strip
+    SoftBox((-6.5, -4.0, 5.0), width=5.0, height=6.5, radiance=21.0),  # key: large, from the left
+    SoftBox((8.0, -2.5, 3.2), width=1.8, height=7.5, radiance=8.0),  # fill: a tall strip
     SoftBox((2.5, 7.5, 6.5), width=8.0, height=2.2, radiance=13.0),  # rim: from behind and above
     SoftBox((0.5, -0.5, 9.0), width=5.0, height=4.0, radiance=6.0),  # top
 )
@@ -46,8 +46,8 @@ LIGHTS = (
 def studio(height: int = 256) -> np.ndarray:
     """The environment, float32, shape (height, 2 * height, 3), linear RGB; the top row looks up, the middle column to +y."""
     d = directions(height)
-    room = 0.35 + 0.55 * np.exp(-((d[..., 2] / 0.35) ** 2))
-    floor = 0.25 + 0.65 * np.clip(1 + d[..., 2], 0, 1) ** 0.8
+    room = 0.24 + 0.42 * np.exp(-((d[..., 2] / 0.35) ** 2))
+    floor = 0.2 + 0.5 * np.clip(1 + d[..., 2], 0, 1) ** 0.8
     grey = np.where(d[..., 2] >= 0, room, floor)
     grey = grey + sum(light.seen(d) for light in LIGHTS)
     return np.repeat(grey[..., None], 3, axis=-1).astype(np.float32)
