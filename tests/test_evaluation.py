@@ -210,6 +210,16 @@ def test_the_body_colour_of_a_mix_is_the_mean_of_its_table(
     assert_allclose(bench.samples.body_colour(weights), expected, rtol=1e-6)
 
 
+def test_body_colours_are_seen_beside_the_highlight_and_away_from_grazing():
+    """Row i of theta_h is at 90 ((i + 1/2)/90)^2 degrees: 47 is the first past 25; column j of theta_d at j + 1/2."""
+    merl = Grid.merl()
+    mask = body_mask(merl)
+    assert not (mask & ~merl.mask()).any()
+    rows, columns = (np.flatnonzero(mask.any(axis=axes)) for axes in ((1, 2), (0, 2)))
+    assert (rows[0], columns[0], columns[-1]) == (47, 0, 49)
+    assert (mask[47:, :50] == merl.mask()[47:, :50]).all()
+
+
 def test_samples_come_back_from_the_cache(library: ProceduralLibrary, tmp_path):
     first, again = (BasisSamples.fit(library, n_cells=300, cache=tmp_path) for _ in range(2))
     assert len(list(tmp_path.iterdir())) == 1
