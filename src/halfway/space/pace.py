@@ -1,13 +1,15 @@
 """Perceptual pace: a route whose materials look equally far apart.
 
-The distance of two materials is the mean CIELAB difference of their pictures on a small lit sphere
+The distance of two materials is the mean CIEDE2000 difference of their pictures on a small lit sphere
 (`halfway.library.BasisImages`), and the length of a stretch of a route the sum over steps too short to matter. With L(t) the
 length from the start to t, the paced route is
 
     u = L(t) / L(1)
 
-so that equal steps of u are equal lengths. L is measured between knots that are added until no step is longer than
+so that equal steps of u are equal lengths. L is measured between places that are added until no step is longer than
 `FINEST` of the whole; between them t is linear in u, and the recipes stay piecewise linear.
+
+CIEDE2000 and not the plain distance in CIELAB: strong colours, where CIELAB exaggerates, would get all the steps.
 """
 
 from dataclasses import replace
@@ -15,14 +17,14 @@ from dataclasses import replace
 import numpy as np
 from jaxtyping import Float64
 
-from ..brdf.image_metrics import appearance, cielab_difference
+from ..brdf.image_metrics import Lab, appearance, ciede2000_difference
 from ..library import BasisImages
 from .route import Route
 
-FINEST = 1 / 400
-"""Largest step, as a share of the route's length, between knots at which the length is measured."""
-N_START = 129
-"""Even knots to begin with."""
+FINEST = 1 / 200
+"""Largest step, as a share of the route's length, between places at which the length is measured."""
+N_START = 65
+"""Even places to begin with."""
 N_ROUNDS = 12
 """How often steps may be halved: a jump within 1/500,000 of t is an instant."""
 LEAST = 1e-9
@@ -44,19 +46,25 @@ def perceptual(route: Route, images: BasisImages) -> Route:
 def _lengths(route: Route, images: BasisImages) -> tuple[Places, Places]:
     """The share u of its length that a route has covered at each of some t."""
     t = np.union1d(route.knots, np.linspace(0, 1, N_START))
+    looks = _looks(route, images, t)
+    steps = _steps(looks)
     for _ in range(N_ROUNDS):
-        steps = _steps(route, images, t)
         long = np.flatnonzero(steps > FINEST * steps.sum())
         if not len(long):
             break
-        t = np.insert(t, long + 1, (t[long] + t[long + 1]) / 2)
-    steps = _steps(route, images, t)
+        middle = (t[long] + t[long + 1]) / 2
+        t = np.insert(t, long + 1, middle)
+        looks = np.insert(looks, long + 1, _looks(route, images, middle), axis=0)
+        steps = _steps(looks)
     if not steps.sum():
         return t, t
     u = np.append(0.0, np.cumsum(steps + LEAST * steps.sum()))
     return u / u[-1], t
 
 
-def _steps(route: Route, images: BasisImages, t: Places) -> Places:
-    pictures = appearance(images.mix(route.at(t)))
-    return np.asarray(cielab_difference(pictures[1:], pictures[:-1]), np.float64)
+def _looks(route: Route, images: BasisImages, t: Places) -> Lab:
+    return appearance(images.mix(route.at(t)))
+
+
+def _steps(looks: Lab) -> Places:
+    return np.asarray(ciede2000_difference(looks[1:], looks[:-1]), np.float64)
