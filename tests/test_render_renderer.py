@@ -120,7 +120,13 @@ def test_what_cannot_be_rendered_is_refused_in_one_line(options, message):
 
 @pytest.mark.parametrize(
     ("name", "text"),
-    [("bad.ply", "no ply"), ("bad.obj", "v 1 2\n"), ("bad.hdr", "no hdr"), ("bad.exr", "")],
+    [
+        ("bad.ply", "no ply"),
+        ("bad.obj", "v 1 2\nf 1 1 1\n"),
+        ("none.obj", "v 0 0 0\n"),
+        ("bad.hdr", "no hdr"),
+        ("bad.exr", ""),
+    ],
 )
 def test_a_damaged_file_is_refused_in_one_line(tmp_path, name, text):
     path = tmp_path / name

@@ -19,6 +19,8 @@ from .mesh import Mesh, outward
 def read_mesh(path: Path) -> Mesh:
     """The triangles of a ``.ply`` or ``.obj`` file, y up in the file, faces turned outward."""
     kind = _require_file(path, "mesh", (".ply", ".obj"))
+    if kind == "obj" and b"\nf " not in b"\n" + path.read_bytes():
+        raise RenderError(f"The mesh {path} has no faces: expected one or more (lines f 1 2 3).")
     try:
         with quiet():
             shape = mi.load_dict({"type": kind, "filename": str(path)})

@@ -202,8 +202,8 @@ def _read(props: Any) -> TabularBrdf:
     if "recipe" in props:
         return _mixed(props.get("library", DEFAULT_LIBRARY), props["recipe"])
     if "filename" in props:
-        resolver: Any = mi.file_resolver()
-        path = Path(str(resolver.resolve(props["filename"])))  # pyright: ignore[reportCallIssue]
+        file_resolver: Any = mi.file_resolver
+        path = Path(str(file_resolver().resolve(props["filename"])))
         brdf = read_brdf(path)
         return brdf if isinstance(brdf, TabularBrdf) else tabulate(brdf, MERL, name=path.stem)
     raise RenderError(
