@@ -7,6 +7,7 @@
     |- SpaceError        a space cannot be made, or a place in it not be reached
     |  `- OutsideHullError   the place is not between the materials
     |- RenderError       a picture cannot be made here
+    |- FetchError        a data set cannot be downloaded, or is not what it should be
     `- OutputError       a result cannot be written
 
 Every message is one line: which thing, what is wrong with numbers, what was expected, what to do.
@@ -39,6 +40,10 @@ class OutsideHullError(SpaceError):
 
 class RenderError(HalfwayError):
     """A picture cannot be made: no usable renderer, an unknown scene, an unreadable mesh."""
+
+
+class FetchError(HalfwayError):
+    """A data set cannot be downloaded, or what came is not what was expected."""
 
 
 class OutputError(HalfwayError):
