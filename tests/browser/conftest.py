@@ -101,6 +101,10 @@ class Explorer:
             timeout=90_000,
         )
 
+    def wait_until_settled(self) -> None:
+        """Until the picture has all its pixels and samples."""
+        self.page.wait_for_selector(".material[data-settled=true]", timeout=120_000)
+
     @property
     def recipe(self) -> list[str]:
         return self.page.locator(".recipe .name").all_text_contents()

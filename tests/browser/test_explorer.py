@@ -11,7 +11,7 @@ from halfway.formats import write_merl
 from halfway.library import ProceduralLibrary
 from halfway.space import Recipe, mix
 
-PAIR = "#space=linear&stops=cherry-235,gold-paint"
+PAIR = "#space=linear&pace=uniform&stops=cherry-235,gold-paint"
 
 
 def test_the_first_picture_comes(explorer: Explorer) -> None:
@@ -22,18 +22,19 @@ def test_the_first_picture_comes(explorer: Explorer) -> None:
 
 def test_moving_t_changes_the_recipe_and_not_the_samples(explorer: Explorer) -> None:
     explorer.open(PAIR + "&t=0.5&light=points")
-    explorer.wait_for_picture(16)
+    explorer.wait_until_settled()
     before = picture(explorer)
     explorer.set_t(0.25)
     assert explorer.page.locator(".recipe .share").all_text_contents() == ["75 %", "25 %"]
     explorer.page.wait_for_function("() => document.querySelector('.t b').textContent === '0.250'")
     explorer.wait_for_picture(16)
+    # No sample is drawn again: only the weights of the sum are others.
     assert explorer.page.locator(".material .note").inner_text() == "16 / 16 samples"
     assert picture(explorer) != before
 
 
 def test_at_a_stop_the_recipe_is_that_material(explorer: Explorer) -> None:
-    explorer.open("#space=paper&stops=teflon,chrome,pink-felt&t=0.5")
+    explorer.open("#space=paper&pace=uniform&stops=teflon,chrome,pink-felt&t=0.5")
     explorer.page.wait_for_selector(".recipe .name")
     assert explorer.recipe == ["chrome"]
 
@@ -118,6 +119,49 @@ def test_the_picture_is_taken_home(explorer: Explorer) -> None:
     with explorer.page.expect_download() as picture_file:
         explorer.page.get_by_role("button", name="Picture").click()
     assert picture_file.value.path().read_bytes().startswith(b"\x89PNG")
+
+
+def test_two_spaces_are_compared_in_one_picture(explorer: Explorer) -> None:
+    explorer.open("#space=linear&stops=chrome,pink-felt&t=0.5&light=points")
+    explorer.wait_until_settled()
+    alone = picture(explorer)
+    explorer.page.locator("#compare").select_option("paper")
+    explorer.page.wait_for_function("p => document.querySelector('#material').toDataURL() !== p", arg=alone)
+    assert explorer.page.locator(".split").inner_text().split() == ["linear", "paper"]
+    explorer.page.locator("#compare").select_option("")
+    explorer.page.wait_for_function(
+        "p => document.querySelector('#material').toDataURL() === p", arg=alone
+    )
+
+
+def test_another_body_colour_leaves_the_route_and_comes_back(explorer: Explorer) -> None:
+    explorer.open("#space=anchored&stops=cherry-235,gold-paint&t=0.5&light=points")
+    explorer.wait_for_picture(1)
+    on_route = explorer.recipe
+    explorer.page.get_by_label("Body colour").fill("#80402f")
+    back = explorer.page.get_by_role("button", name="Back to route")
+    back.wait_for()
+    assert explorer.recipe != on_route
+    explorer.page.wait_for_function("() => location.hash.includes('point=')")
+    left = explorer.recipe
+    explorer.page.reload()
+    back.wait_for()
+    assert explorer.recipe == left
+    back.click()
+    assert explorer.recipe == on_route
+
+
+def test_the_present_material_is_dragged_through_the_space(explorer: Explorer) -> None:
+    explorer.open("#space=anchored&stops=cherry-235,teflon&t=0.5&light=points")
+    explorer.page.get_by_role("button", name="Body colour").click()
+    marker = explorer.page.locator(".here").bounding_box()
+    assert marker is not None
+    x, y = marker["x"] + marker["width"] / 2, marker["y"] + marker["height"] / 2
+    explorer.page.mouse.move(x, y)
+    explorer.page.mouse.down()
+    explorer.page.mouse.move(x, y - 30, steps=4)
+    explorer.page.mouse.up()
+    explorer.page.get_by_role("button", name="Back to route").wait_for()
 
 
 def test_it_plays(explorer: Explorer) -> None:

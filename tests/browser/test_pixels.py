@@ -137,7 +137,7 @@ def places(shown: Picture, n: int, seed: int) -> np.ndarray:
 def test_three_lights(explorer: Explorer, library: ProceduralLibrary, name: str) -> None:
     other = "teflon"
     explorer.open(f"#space=linear&stops={name},{other}&t=0&light=points")
-    explorer.wait_for_picture(16)
+    explorer.wait_until_settled()
     shown = picture(explorer)
     pixels = places(shown, 300, seed=1)
     offsets = (np.arange(N_POINTS) + 0.5) / N_POINTS
@@ -158,7 +158,7 @@ def test_three_lights(explorer: Explorer, library: ProceduralLibrary, name: str)
 def test_studio(explorer: Explorer, library: ProceduralLibrary, name: str) -> None:
     explorer.page.set_viewport_size({"width": 620, "height": 600})
     explorer.open(f"#space=linear&stops={name},teflon&t=0&light=studio&exposure=-1")
-    explorer.wait_for_picture(128)
+    explorer.wait_until_settled()
     shown = picture(explorer)
     pixels = places(shown, 24, seed=2)
     _, normal, wo = surface(shown, pixels[:, 0] + 0.5, pixels[:, 1] + 0.5)
@@ -173,6 +173,6 @@ def test_studio(explorer: Explorer, library: ProceduralLibrary, name: str) -> No
         [shown.bytes[i - 2 : i + 3, j - 2 : j + 3, :3].mean(axis=(0, 1)) for i, j in pixels]
     )
     error = np.abs(got - expected)
-    print(name, np.median(error), error.mean(), error.max())
-    assert np.median(error) < 1.5
-    assert error.mean() < 3
+    # A mirror shows the edges of the lamps, where a few pixels' mean is no point's value.
+    assert np.median(error) < 1
+    assert np.quantile(error, 0.8) < 2.5

@@ -5,6 +5,21 @@ export function toSrgb(linear: number): number {
   return x <= 0.0031308 ? 12.92 * x : 1.055 * x ** (1 / 2.4) - 0.055;
 }
 
+/** The inverse of `toSrgb`. */
+export function fromSrgb(coded: number): number {
+  return coded <= 0.04045 ? coded / 12.92 : ((coded + 0.055) / 1.055) ** 2.4;
+}
+
+/** #rrggbb of linear RGB, as a colour input takes it. */
+export function toHex(rgb: readonly number[]): string {
+  return `#${rgb.map((x) => toByte(x).toString(16).padStart(2, "0")).join("")}`;
+}
+
+/** Linear RGB of #rrggbb. */
+export function fromHex(hex: string): number[] {
+  return [1, 3, 5].map((i) => fromSrgb(Number.parseInt(hex.slice(i, i + 2), 16) / 255));
+}
+
 /** A colour for style sheets, from linear RGB. */
 export function toCss(rgb: readonly [number, number, number]): string {
   return `rgb(${rgb.map((x) => Math.round(255 * toSrgb(x))).join(" ")})`;

@@ -77,6 +77,7 @@ function show(
     routePanel(context),
   );
   fetchRoutes(context);
+  fetchPlaces(context);
   fetchSpaces(context);
   keepLink(store);
   play(context);
@@ -106,6 +107,21 @@ function fetchRoutes({ store, actions }: Context): void {
   );
 }
 
+function fetchPlaces({ store, actions }: Context): void {
+  let running = new AbortController();
+  store.watch(
+    ({ point }) => point,
+    (point) => {
+      running.abort();
+      running = new AbortController();
+      if (point === null) return;
+      api.place(store.get().space, point, running.signal).then(actions.setPlace, (error: Error) => {
+        if (error.name !== "AbortError") store.set({ problem: error.message });
+      });
+    },
+  );
+}
+
 function fetchSpaces({ store }: Context): void {
   store.watch(
     ({ space }) => space,
@@ -121,11 +137,12 @@ function fetchSpaces({ store }: Context): void {
 function keepLink(store: Store<State>): void {
   let timer = 0;
   store.watch(
-    ({ space, pace, stops, t, compare, shape, light, exposure, orbit }) => [
+    ({ space, pace, stops, t, point, compare, shape, light, exposure, orbit }) => [
       space,
       pace,
       stops,
       t,
+      point,
       compare,
       shape,
       light,

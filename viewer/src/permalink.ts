@@ -10,6 +10,7 @@ export function toHash(linked: Linked): string {
     pace: linked.pace,
     stops: linked.stops.join(","),
     t: short(linked.t, 4),
+    point: (linked.point ?? []).map((x) => String(Number(x.toPrecision(7)))).join(","),
     compare: linked.compare,
     shape: linked.shape,
     light: linked.light,
@@ -35,6 +36,7 @@ export function fromHash(hash: string, library: LibrarySummary): Partial<Linked>
   const stops = (fields.get("stops") ?? "").split(",").filter((name) => names.has(name));
   const distinct = stops.filter((name, i) => name !== stops[i - 1]);
   const orbit = (fields.get("orbit") ?? "").split(",").map(Number.parseFloat);
+  const point = (fields.get("point") ?? "").split(",").filter(Boolean).map(Number.parseFloat);
   const [azimuth, elevation, zoom] = orbit;
   return defined({
     space: oneOf(
@@ -44,6 +46,7 @@ export function fromHash(hash: string, library: LibrarySummary): Partial<Linked>
     pace: oneOf("pace", library.paces),
     stops: distinct.length >= 2 ? distinct : undefined,
     t: number("t", 0, 1),
+    point: point.length && point.every(Number.isFinite) ? point : undefined,
     compare: oneOf(
       "compare",
       library.spaces.map(({ name }) => name),

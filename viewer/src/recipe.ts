@@ -42,6 +42,11 @@ export function toDocument(library: string, recipe: readonly Ingredient[]): Reci
   return { library, weights: same ? r! : { r: r!, g: g!, b: b! } };
 }
 
+/** The weight in one channel, or the mean of all. */
+export function weightIn(ingredient: Ingredient, channel: (typeof CHANNELS)[number] | "all"): number {
+  return channel === "all" ? meanWeight(ingredient) : ingredient.weight[CHANNELS.indexOf(channel)]!;
+}
+
 export function meanWeight({ weight: [r, g, b] }: Ingredient): number {
   return (r + g + b) / 3;
 }

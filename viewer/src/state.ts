@@ -1,6 +1,7 @@
 // What the page shows, and the acts that change it.
 
-import type { LibrarySummary, RouteView, SpaceView } from "./api/schema";
+import type { LibrarySummary, PlaceView, RouteView, SpaceView } from "./api/schema";
+import { fromDocument } from "./place";
 import { type Ingredient, recipeAt } from "./recipe";
 import type { Light } from "./render/painter";
 import { HOME, type Orbit, type Shape } from "./render/stage";
@@ -16,6 +17,8 @@ export interface State {
   /** The stop that the next chosen material replaces; `stops.length` adds one. */
   readonly slot: number;
   readonly t: number;
+  /** The stop that t goes to when the route has come; null for none. */
+  readonly goal: number | null;
   readonly playing: boolean;
   readonly shape: Shape;
   readonly light: Light;
@@ -29,6 +32,10 @@ export interface State {
   readonly view: SpaceView | null;
   readonly route: RouteView | null;
   readonly recipe: readonly Ingredient[];
+  /** A free place of the space, instead of one on the route; null on the route. */
+  readonly point: readonly number[] | null;
+  /** What the server says of it. */
+  readonly place: PlaceView | null;
   /** The space whose way through the same stops is shown beside; "" for none. */
   readonly compare: string;
   readonly otherRoute: RouteView | null;
@@ -36,19 +43,20 @@ export interface State {
   /** Where the present material ends and the other begins, from left to right in [0, 1]. */
   readonly split: number;
   readonly problem: string | null;
-  readonly past: readonly Place[];
-  readonly future: readonly Place[];
+  readonly past: readonly Way[];
+  readonly future: readonly Way[];
 }
 
 /** What undo goes back to. */
-type Place = Pick<State, "space" | "pace" | "stops">;
+type Way = Pick<State, "space" | "pace" | "stops">;
 
 /** What a link carries. */
 export type Linked = Pick<
   State,
-  "space" | "pace" | "stops" | "t" | "compare" | "shape" | "light" | "exposure" | "orbit"
+  "space" | "pace" | "stops" | "t" | "point" | "compare" | "shape" | "light" | "exposure" | "orbit"
 >;
 
+const MAX_PAST = 100;
 export const EXPOSURES = [-4, 4] as const;
 
 export function createState(library: LibrarySummary, linked: Partial<Linked>, theme: Theme): Store<State> {
@@ -62,10 +70,12 @@ export function createState(library: LibrarySummary, linked: Partial<Linked>, th
     light: "studio",
     exposure: 0,
     orbit: HOME,
+    point: null,
     compare: "",
     ...linked,
     stops,
     slot: stops.length - 1,
+    goal: null,
     playing: false,
     theme,
     hovered: null,
@@ -73,6 +83,7 @@ export function createState(library: LibrarySummary, linked: Partial<Linked>, th
     view: null,
     route: null,
     recipe: [],
+    place: null,
     otherRoute: null,
     otherRecipe: [],
     split: 0.5,
@@ -90,13 +101,27 @@ export class Actions {
     const clamped = Math.min(Math.max(t, 0), 1);
     this.store.set({
       t: clamped,
+      point: null,
+      place: null,
       ...(route && { recipe: recipeAt(route, clamped) }),
       ...(otherRoute && { otherRecipe: recipeAt(otherRoute, clamped) }),
     });
   };
 
   setRoute = (route: RouteView): void => {
-    this.store.set({ route, recipe: recipeAt(route, this.store.get().t), problem: null });
+    const { goal, place } = this.store.get();
+    // At perceptual pace the server says where the stops are.
+    const t = (goal === null ? undefined : route.stop_t[goal]) ?? this.store.get().t;
+    const recipe = place === null ? recipeAt(route, t) : this.store.get().recipe;
+    this.store.set({ route, t, goal: null, recipe, problem: null });
+  };
+
+  /** Leave the route for a place of the space. */
+  goTo = (point: readonly number[]): void => this.store.set({ point, playing: false });
+
+  setPlace = (place: PlaceView): void => {
+    if (this.store.get().point !== null)
+      this.store.set({ place, recipe: fromDocument(place.recipe), problem: null });
   };
 
   setOtherRoute = (otherRoute: RouteView | null): void => {
@@ -110,13 +135,13 @@ export class Actions {
     if (stops[slot - 1] === name || stops[slot + 1] === name || stops[slot] === name) return;
     const next = [...stops.slice(0, slot), name, ...stops.slice(slot + 1)];
     this.go({ stops: next });
-    this.setT(slot / Math.max(1, next.length - 1));
+    this.store.set({ goal: slot });
   };
 
   selectSlot = (slot: number): void => {
-    const { stops } = this.store.get();
+    const { stops, route } = this.store.get();
     this.store.set({ slot });
-    if (slot < stops.length) this.setT(slot / (stops.length - 1));
+    if (slot < stops.length) this.setT(route?.stop_t[slot] ?? slot / (stops.length - 1));
   };
 
   removeStop = (i: number): void => {
@@ -141,35 +166,27 @@ export class Actions {
 
   undo = (): void => {
     const { past, future } = this.store.get();
-    const place = past.at(-1);
-    if (place)
-      this.store.set({
-        ...place,
-        past: past.slice(0, -1),
-        future: [this.place(), ...future],
-        slot: place.stops.length - 1,
-      });
+    const way = past.at(-1);
+    if (way) this.follow(way, past.slice(0, -1), [this.way(), ...future], way.stops.length - 1);
   };
 
   redo = (): void => {
     const { past, future } = this.store.get();
-    const [place, ...rest] = future;
-    if (place)
-      this.store.set({ ...place, past: [...past, this.place()], future: rest, slot: place.stops.length - 1 });
+    const [way, ...rest] = future;
+    if (way) this.follow(way, [...past, this.way()], rest, way.stops.length - 1);
   };
 
-  private go(change: Partial<Place>): void {
+  private go(change: Partial<Way>): void {
     const { past, slot } = this.store.get();
-    const stops = change.stops ?? this.store.get().stops;
-    this.store.set({
-      past: [...past.slice(-99), this.place()],
-      future: [],
-      ...change,
-      slot: Math.min(slot, stops.length - 1),
-    });
+    const way = { ...this.way(), ...change };
+    this.follow(way, [...past.slice(1 - MAX_PAST), this.way()], [], Math.min(slot, way.stops.length - 1));
   }
 
-  private place(): Place {
+  private follow(way: Way, past: readonly Way[], future: readonly Way[], slot: number): void {
+    this.store.set({ ...way, past, future, slot, point: null, place: null });
+  }
+
+  private way(): Way {
     const { space, pace, stops } = this.store.get();
     return { space, pace, stops };
   }

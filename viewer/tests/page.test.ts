@@ -78,6 +78,7 @@ test("a link comes back to the same place", () => {
     pace: "uniform",
     stops: ["a", "c", "b"],
     t: 0.25,
+    point: [0.5, -1.25e-7, 300],
     compare: "paper",
     shape: "teapot",
     light: "points",
@@ -92,12 +93,17 @@ test("what a link says that makes no sense is left out", () => {
   expect(fromHash(hash, LIBRARY)).toEqual({ light: "points", exposure: 4 });
 });
 
-test("a chosen material takes the selected place, and t goes there", () => {
-  const { store, actions } = page();
-  actions.selectSlot(0);
+test("a chosen material takes the selected place, and t goes where the route has it", () => {
+  const { store, actions } = page(["a", "b", "d"]);
+  const { route } = golden<{ route: RouteView }>("recipe");
+  actions.selectSlot(1);
+  expect(store.get().t).toBe(0.5);
   actions.choose("c");
-  expect(store.get().stops).toEqual(["c", "b"]);
-  expect(store.get().t).toBe(0);
+  expect(store.get().stops).toEqual(["a", "c", "d"]);
+  actions.setRoute({ ...route, stop_t: [0, 0.3, 1] });
+  expect(store.get().t).toBe(0.3);
+  actions.setRoute(route);
+  expect(store.get().t).toBe(0.3);
 });
 
 test("a stop never follows itself", () => {

@@ -1,6 +1,8 @@
 // Asking the server. A mistake comes back as {"error": "one line"} and is thrown as a `Problem`.
 
-import type { LibrarySummary, RecipeDocument, RouteView, SpaceView } from "./schema";
+import type { LibrarySummary, PlaceView, RecipeDocument, RouteView, SpaceView } from "./schema";
+
+const JSON_HEADERS = { "Content-Type": "application/json" };
 
 export class Problem extends Error {}
 
@@ -32,14 +34,19 @@ export const environment = (): Promise<Block> => block("api/environment");
 
 export const table = (name: string): Promise<Block> => block(`api/tables/${encodeURIComponent(name)}`);
 
+export function place(space: string, point: readonly number[], signal: AbortSignal): Promise<PlaceView> {
+  return json("api/place", {
+    method: "POST",
+    headers: JSON_HEADERS,
+    body: JSON.stringify({ space, point }),
+    signal,
+  });
+}
+
 /** The mixed table as a file, in one of the library's `exports`. */
 export async function exported(format: string, recipe: RecipeDocument): Promise<Blob> {
-  const headers = { "Content-Type": "application/json" };
-  const answer = await ask(`api/export/${encodeURIComponent(format)}`, {
-    method: "POST",
-    headers,
-    body: JSON.stringify(recipe),
-  });
+  const path = `api/export/${encodeURIComponent(format)}`;
+  const answer = await ask(path, { method: "POST", headers: JSON_HEADERS, body: JSON.stringify(recipe) });
   return answer.blob();
 }
 

@@ -145,6 +145,7 @@ function paint(
     if (!working && !ahead && samples > 0 && !refined) idle = window.setTimeout(refine, 800);
     panel.dataset.samples = String(samples);
     panel.dataset.ready = String(samples > 0);
+    panel.dataset.settled = String(samples >= painter.targetSamples && (refined || quality === 1));
     return working || ahead;
   });
   const comingUp = () => {
@@ -222,6 +223,7 @@ function stillPictures({ store, thumbnails }: Context, panel: HTMLElement, reaso
   store.watch(
     ({ recipe }) => recipe,
     (recipe) => {
+      if (recipe.length === 0) return;
       canvas.getContext("2d")!.putImageData(thumbnails.picture(recipe), 0, 0);
       panel.dataset.ready = "still";
     },

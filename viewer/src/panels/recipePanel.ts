@@ -1,9 +1,13 @@
 // The recipe: what the material is made of, and taking it home.
 
 import * as api from "../api/client";
+import { fromHex, toHex } from "../colour";
 import { download, el } from "../dom";
 import type { Context } from "../main";
+import { pointOf, withCoordinates } from "../place";
 import { CHANNELS, type Ingredient, meanWeight, toDocument } from "../recipe";
+
+const BODY = "Body colour";
 
 export function recipePanel(context: Context): HTMLElement {
   const { store, thumbnails } = context;
@@ -33,8 +37,51 @@ export function recipePanel(context: Context): HTMLElement {
     {},
     el("div.titled", {}, {}, el("h2", {}, {}, "Recipe"), note),
     list,
+    adjustment(context),
     exports(context),
   );
+}
+
+/** The body colour of the present material, to be changed: everything else stays as near as a mix can be. */
+function adjustment({ store, actions }: Context): HTMLElement {
+  const names = store.get().library.materials.map(({ name }) => name);
+  const note = el("span.note");
+  const input = el(
+    "input",
+    { type: "color", "aria-label": "Body colour" },
+    {
+      oninput: () => {
+        const { view, point, recipe } = store.get();
+        if (view === null) return;
+        // A matte surface of reflectance x has x / pi in 1/sr.
+        const body = fromHex(input.value).map((x) => x / Math.PI);
+        actions.goTo(withCoordinates(view, point ?? pointOf(view, names, recipe), BODY, body));
+      },
+    },
+  );
+  const label = el("label", {}, {}, input, "Body colour");
+  const back = el(
+    "button.button",
+    { type: "button" },
+    { onclick: () => actions.setT(store.get().t) },
+    "Back to route",
+  );
+  const element = el("div.adjustment", {}, {}, label, note, back);
+  store.watch(
+    ({ view, recipe, place }) => [view, recipe, place] as const,
+    ([view, recipe, place]) => {
+      const has = view?.embeddings.some(({ name }) => name === BODY) ?? false;
+      element.hidden = !has && place === null;
+      label.hidden = !has;
+      back.hidden = place === null;
+      note.textContent = place === null || place.inside ? "" : "no mix is just there: this is the nearest";
+      if (view && has && recipe.length && document.activeElement !== input) {
+        const body = pointOf(view, names, recipe).slice(-3);
+        input.value = toHex(body.map((x) => x * Math.PI));
+      }
+    },
+  );
+  return element;
 }
 
 function newRow({ store }: Context, picture: HTMLCanvasElement, name: string): HTMLLIElement {
@@ -80,7 +127,8 @@ const FORMATS: Readonly<Record<string, { text: string; suffix: string; title: st
 function exports({ store }: Context): HTMLElement {
   const recipe = () => toDocument(store.get().library.name, store.get().recipe);
   const title = () => {
-    const { stops, t } = store.get();
+    const { stops, t, place } = store.get();
+    if (place !== null) return "free-place";
     return `${stops[0]}-to-${stops.at(-1)}-${t.toFixed(3)}`;
   };
   const tables = store.get().library.exports.map((format, i) => {

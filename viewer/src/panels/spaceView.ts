@@ -4,15 +4,18 @@ import type { Vector3 } from "three";
 
 import { el, onResize, segments, style } from "../dom";
 import type { Context } from "../main";
-import { recipeAt } from "../recipe";
+import { hasPlaces, pointOf, withCoordinates } from "../place";
+import { recipeAt, weightIn } from "../recipe";
 import { Appearance } from "../render/appearance";
 import { Cloud } from "../render/cloud";
-import { Scores, weightIn } from "../render/display";
+import { Scores } from "../render/display";
 
 const APPEARANCE = "Looks";
 const ROUTE_POINTS = 160;
 /** About what a label takes, in CSS pixels. */
 const LABEL = { width: 150, height: 23 };
+/** How near the pointer has to be to take the present material, in CSS pixels. */
+const MARKER = 11;
 /** A pointer that moved less between down and up was a click, in CSS pixels. */
 const STILL = 4;
 
@@ -151,12 +154,31 @@ export function spaceView(context: Context): HTMLElement {
     } else labels.replaceChildren(...items);
   };
 
+  const onMarker = (x: number, y: number) => {
+    if (here3d === null || !(cloud.placement instanceof Scores) || !hasPlaces(store.get().view)) return false;
+    const at = cloud.project(here3d);
+    return Math.hypot(at.x - x, at.y - y) <= MARKER;
+  };
+  const drag = (x: number, y: number) => {
+    const { view, recipe, point } = store.get();
+    const current = embedding();
+    if (!(cloud.placement instanceof Scores) || view === null || current === undefined || here3d === null)
+      return;
+    const coordinates = cloud.placement.coordinatesAt(cloud.unproject(x, y, here3d));
+    actions.goTo(withCoordinates(view, point ?? pointOf(view, names, recipe), current.name, coordinates));
+  };
   listenToPointer(canvas, {
     hover: (x, y) => {
       const i = cloud.pick(x, y);
-      canvas.style.cursor = i === null ? "" : "pointer";
+      canvas.style.cursor = onMarker(x, y) ? "move" : i === null ? "" : "pointer";
       store.set({ hovered: i === null ? null : names[i]! });
     },
+    grab: (x, y) => {
+      const grabbed = onMarker(x, y);
+      cloud.controls.enabled = !grabbed;
+      return grabbed;
+    },
+    drag,
     leave: () => store.set({ hovered: null }),
     click: (x, y) => {
       const i = cloud.pick(x, y);
@@ -182,20 +204,32 @@ interface Pointer {
   readonly hover: (x: number, y: number) => void;
   readonly leave: () => void;
   readonly click: (x: number, y: number) => void;
+  /** True when what is under the pointer is to be dragged. */
+  readonly grab: (x: number, y: number) => boolean;
+  readonly drag: (x: number, y: number) => void;
 }
 
-function listenToPointer(canvas: HTMLCanvasElement, { hover, leave, click }: Pointer): void {
+function listenToPointer(canvas: HTMLCanvasElement, { hover, leave, click, grab, drag }: Pointer): void {
   let down: { x: number; y: number } | null = null;
+  let dragging = false;
   canvas.addEventListener("pointermove", ({ offsetX, offsetY, buttons }) => {
-    if (buttons === 0) hover(offsetX, offsetY);
+    if (dragging) drag(offsetX, offsetY);
+    else if (buttons === 0) hover(offsetX, offsetY);
   });
   canvas.addEventListener("pointerleave", leave);
-  canvas.addEventListener("pointerdown", ({ offsetX, offsetY, button }) => {
-    down = button === 0 ? { x: offsetX, y: offsetY } : null;
-  });
+  // Before the controls hear of it, so that they can be told to stay.
+  canvas.addEventListener(
+    "pointerdown",
+    ({ offsetX, offsetY, button }) => {
+      down = button === 0 ? { x: offsetX, y: offsetY } : null;
+      dragging = down !== null && grab(offsetX, offsetY);
+    },
+    { capture: true },
+  );
   canvas.addEventListener("pointerup", ({ offsetX, offsetY }) => {
-    if (down && Math.hypot(offsetX - down.x, offsetY - down.y) < STILL) click(offsetX, offsetY);
+    if (!dragging && down && Math.hypot(offsetX - down.x, offsetY - down.y) < STILL) click(offsetX, offsetY);
     down = null;
+    dragging = false;
   });
 }
 

@@ -33,6 +33,10 @@ export function strip({ store, actions, thumbnails }: Context): HTMLElement {
       head.style.left = `calc(${SIDE / 2}px + ${t} * (100% - ${SIDE}px))`;
     },
   );
+  store.watch(
+    ({ place }) => place !== null,
+    (away) => element.classList.toggle("away", away),
+  );
   const cell = document.createElement("canvas");
   cell.width = cell.height = thumbnails.size;
   const pen = cell.getContext("2d")!;

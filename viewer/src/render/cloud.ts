@@ -16,7 +16,7 @@ import {
   Scene,
   UnsignedByteType,
   Vector2,
-  type Vector3,
+  Vector3,
   WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
@@ -197,6 +197,13 @@ export class Cloud {
       y: ((1 - p.y) / 2) * (height / this.ratio),
       depth: p.z,
     };
+  }
+
+  /** The place under the pointer that is as far away as `near`. */
+  unproject(x: number, y: number, near: Vector3): Vector3 {
+    const { depth } = this.project(near);
+    const clip = [(2 * x * this.ratio) / this.size.x - 1, 1 - (2 * y * this.ratio) / this.size.y] as const;
+    return new Vector3(...clip, depth).unproject(this.camera);
   }
 
   /** The material at a place of the panel, in CSS pixels; null beside all of them. */

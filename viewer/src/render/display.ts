@@ -7,7 +7,7 @@
 import { Matrix3, Vector3 } from "three";
 
 import type { Embedding } from "../api/schema";
-import { CHANNELS, type Ingredient, meanWeight } from "../recipe";
+import { type Ingredient, weightIn } from "../recipe";
 import { principalAxes } from "./axes";
 
 /** Where materials and recipes are drawn. */
@@ -23,6 +23,7 @@ const RADIUS = 1.35;
 
 export class Scores implements Placement {
   readonly points: readonly Vector3[];
+  private readonly extents: readonly (readonly [number, number])[];
   private readonly scales: readonly ((x: number) => number)[];
   private readonly centre = new Vector3();
   private readonly turn = new Matrix3();
@@ -37,6 +38,10 @@ export class Scores implements Placement {
     this.scales = embedding.axes.map((_, axis) =>
       quantileScale(embedding.points.map((point) => point[axis]!)),
     );
+    this.extents = embedding.axes.map((_, axis) => {
+      const values = embedding.points.map((point) => point[axis]!);
+      return [Math.min(...values), Math.max(...values)] as const;
+    });
     const stretched = embedding.points.map((point) => this.stretch(point));
     for (const point of stretched) this.centre.addScaledVector(point, 1 / stretched.length);
     const centred = stretched.map((point) => point.clone().sub(this.centre));
@@ -62,6 +67,12 @@ export class Scores implements Placement {
     return this.toView(this.stretch(sum));
   }
 
+  /** The coordinates of what is drawn at a place: the inverse of `place`. */
+  coordinatesAt(view: Vector3): number[] {
+    const stretched = view.clone().applyMatrix3(this.turn.clone().invert()).add(this.centre);
+    return this.scales.map((scale, axis) => invert(scale, stretched.getComponent(axis), this.extents[axis]!));
+  }
+
   private stretch(point: readonly number[]): Vector3 {
     const [x = 0, y = 0, z = 0] = point.map((value, axis) => this.scales[axis]!(value));
     return new Vector3(x, y, z);
@@ -70,11 +81,6 @@ export class Scores implements Placement {
   private toView(point: Vector3): Vector3 {
     return point.clone().sub(this.centre).applyMatrix3(this.turn);
   }
-}
-
-/** The weight in one channel, or the mean of all. */
-export function weightIn(ingredient: Ingredient, channel: Embedding["channel"]): number {
-  return channel === "all" ? meanWeight(ingredient) : ingredient.weight[CHANNELS.indexOf(channel)]!;
 }
 
 /** A monotone map that takes the quantiles of the values to even steps from -1 to 1. */
@@ -87,6 +93,17 @@ export function quantileScale(values: readonly number[]): (x: number) => number 
     xs,
     xs.map((_, i) => (2 * i) / (n - 1) - 1),
   );
+}
+
+/** Where a monotone map takes a value, within the extent: by halving. */
+function invert(map: (x: number) => number, value: number, [low, high]: readonly [number, number]): number {
+  let [from, to] = [low, high];
+  for (let step = 0; step < 60; step++) {
+    const middle = (from + to) / 2;
+    if (map(middle) < value) from = middle;
+    else to = middle;
+  }
+  return (from + to) / 2;
 }
 
 /** Monotone cubic interpolation: F. N. Fritsch, J. Butland, SIAM J. Sci. Stat. Comput. 5(2), 1984, equation 5. */
