@@ -140,7 +140,7 @@ def test_one_step_that_goes_all_the_way_is_n_minus_1_times_the_mean(
         ),
     }
     evaluation = evaluate(linear, bench, PAIRS, paces=paces)
-    for jumps in (evaluation.jump, evaluation.judged_jump):
+    for jumps in (evaluation.jump, evaluation.cielab_jump, evaluation.judged_jump):
         assert list(jumps) == ["uniform", "leap"]
         assert_allclose(jumps["leap"], N_STEPS - 1, rtol=1e-4)
         assert (jumps["uniform"] < 10).all()
@@ -278,7 +278,7 @@ def test_outside_the_hull_the_nearest_point_has_all_materials_behind_it(seed: in
 
 
 def test_the_papers_space_wanders_where_plain_mixing_does_not(shared_data):
-    """On neural fits of the MERL materials; in full: median detour 3.9, 90th percentile 12, uniform jump 4.6."""
+    """On neural fits of the MERL materials; in full: median detour 3.7, 90th percentile 11.5, uniform jump 4.8 in CIELAB."""
     brdfs = read_nbrdf_archive(shared_data / "nbrdf" / "merl_nbrdf.zip")
     coarse = ProceduralLibrary("coarse", brdfs, grid=Grid.merl(24, 12, 16))
     bench = bench_of(coarse, size=12, n_cells=1000)
@@ -290,7 +290,7 @@ def test_the_papers_space_wanders_where_plain_mixing_does_not(shared_data):
         LinearSpace(coarse.name, coarse.names), bench, pairs, paces={"uniform": uniform}
     ).to_json()
     assert 2.5 < paper["detour"]["median"] < 6
-    assert 3 < paper["jump"]["uniform"]["median"] < 7
+    assert 3 < paper["cielab_jump"]["uniform"]["median"] < 7
     assert paper["hue_excursion"]["median"] > 15
     assert linear["detour"]["max"] < 1.1
     assert linear["hue_excursion"]["max"] < 2

@@ -3,7 +3,9 @@
 For each of a set of pairs of materials, on the way from one to the other in `N_STEPS` materials:
 
     detour          length of the path / distance of its ends, mean CIELAB difference on the basis images; 1 is straight
-    jump            largest step / mean step, per pace; 1 is even. Also judged in CIEDE2000 in a scene that no pace knows
+    jump            largest step / mean step, per pace; 1 is even: in mean CIEDE2000 on the basis images, where the
+                    perceptual pace is made, in mean CIELAB difference there ("cielab_jump"), and in mean CIEDE2000 in a
+                    scene that no pace knows ("judged_jump")
     hue_excursion   how far the body colour strays, in the (a*, b*) plane of CIELAB, from where plain mixing of the two
                     ends' body colours would take it; 0 is on the way
     realism         difference between the mix at t = 1/2 and the nearest measured material: in the log metric, by solid
@@ -95,8 +97,8 @@ class Evaluation:
     detour: Float64[np.ndarray, " n_pairs"]
     jump: Mapping[str, Float64[np.ndarray, " n_pairs"]]
     """By pace."""
+    cielab_jump: Mapping[str, Float64[np.ndarray, " n_pairs"]]
     judged_jump: Mapping[str, Float64[np.ndarray, " n_pairs"]]
-    """By pace, in CIEDE2000 in the judging scene."""
     hue_excursion: Float64[np.ndarray, " n_pairs"]
     realism: Mapping[str, Float64[np.ndarray, " n_pairs"]]
     """By the ways of `REALISM`; small is real."""
@@ -111,6 +113,7 @@ class Evaluation:
             "n_pairs_apart": int(apart.sum()),
             "detour": _spread(self.detour[apart]),
             "jump": {pace: _spread(jump[apart]) for pace, jump in self.jump.items()},
+            "cielab_jump": {pace: _spread(jump[apart]) for pace, jump in self.cielab_jump.items()},
             "judged_jump": {pace: _spread(jump[apart]) for pace, jump in self.judged_jump.items()},
             "hue_excursion": _spread(self.hue_excursion),
             "realism": {way: _spread(realism) for way, realism in self.realism.items()},
@@ -131,16 +134,18 @@ def evaluate(
         paces = {"uniform": uniform, "perceptual": partial(perceptual, images=bench.pacing)}
     measure = partial(_measure, space, bench, _Measured.of(bench), tuple(paces.values()))
     rows = list(run(measure, list(pairs), label=f"Evaluating {space.name}", track=track))
-    distance, detour, jump, judged_jump, hue_excursion, realism, others = map(
-        np.array, zip(*rows, strict=True)
+    distance, detour, jumps, hue_excursion, realism, others = map(np.array, zip(*rows, strict=True))
+    jump, cielab_jump, judged_jump = (
+        dict(zip(paces, each, strict=True)) for each in jumps.transpose(2, 1, 0)
     )
     return Evaluation(
         space.name,
         pairs,
         distance,
         detour,
-        dict(zip(paces, jump.T, strict=True)),
-        dict(zip(paces, judged_jump.T, strict=True)),
+        jump,
+        cielab_jump,
+        judged_jump,
         hue_excursion,
         dict(zip(REALISM, realism.T, strict=True)),
         others,
@@ -150,8 +155,8 @@ def evaluate(
 class _Row(NamedTuple):
     distance: float
     detour: float
-    jump: list[float]
-    judged_jump: list[float]
+    jumps: list[list[float]]
+    """By pace: jump, cielab_jump, judged_jump."""
     hue_excursion: float
     realism: list[float]
     others: float
@@ -219,22 +224,21 @@ def _measure(
     return _Row(
         distance,
         length / distance if distance else np.nan,
-        *_jumps(bench, [pace(route) for pace in paces]),
+        [_jumps(bench, pace(route)) for pace in paces],
         _hue_excursion(bench.samples.body_colour(evenly)),
         measured.nearest(bench, middle),
         1.0 - float(middle[:, 0, pair].sum()) / 3,
     )
 
 
-def _jumps(bench: Bench, routes: Sequence[Route]) -> tuple[list[float], list[float]]:
-    jumps: list[float] = []
-    judged: list[float] = []
-    for route in routes:
-        weights = route.at(np.linspace(0, 1, N_STEPS))
-        seen, judge = (appearance(images.mix(weights)) for images in (bench.pacing, bench.judging))
-        jumps.append(_jump(cielab_difference(seen[1:], seen[:-1])))
-        judged.append(_jump(ciede2000_difference(judge[1:], judge[:-1])))
-    return jumps, judged
+def _jumps(bench: Bench, route: Route) -> list[float]:
+    weights = route.at(np.linspace(0, 1, N_STEPS))
+    seen, judge = (appearance(images.mix(weights)) for images in (bench.pacing, bench.judging))
+    return [
+        _jump(ciede2000_difference(seen[1:], seen[:-1])),
+        _jump(cielab_difference(seen[1:], seen[:-1])),
+        _jump(ciede2000_difference(judge[1:], judge[:-1])),
+    ]
 
 
 def _jump(steps: Means) -> float:
