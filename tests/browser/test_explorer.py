@@ -122,7 +122,7 @@ def test_the_picture_is_taken_home(explorer: Explorer) -> None:
 
 
 def test_two_spaces_are_compared_in_one_picture(explorer: Explorer) -> None:
-    explorer.open("#space=linear&stops=chrome,pink-felt&t=0.5&light=points")
+    explorer.open("#space=linear&stops=teflon,chrome&t=0.4&light=points")
     explorer.wait_until_settled()
     alone = picture(explorer)
     explorer.page.locator("#compare").select_option("paper")

@@ -156,7 +156,7 @@ def test_three_lights(explorer: Explorer, library: ProceduralLibrary, name: str)
 
 @pytest.mark.parametrize("name", MATERIALS)
 def test_studio(explorer: Explorer, library: ProceduralLibrary, name: str) -> None:
-    explorer.page.set_viewport_size({"width": 620, "height": 600})
+    explorer.page.set_viewport_size({"width": 460, "height": 560})
     explorer.open(f"#space=linear&stops={name},teflon&t=0&light=studio&exposure=-1")
     explorer.wait_until_settled()
     shown = picture(explorer)
