@@ -57,6 +57,7 @@ def test_the_material_colours_the_object_and_not_the_ground(teapot):
     assert red[24, 22, 0] > 3 * red[24, 22, 1]
     assert_allclose(red[-1, 0], red[-1, 0, 0], rtol=0.02)
     assert_array_equal(red[-1], teapot.picture(GREEN)[-1])
+    assert red[-1].min() > 0.2
 
 
 def test_a_point_lit_sphere_shows_its_brdf():

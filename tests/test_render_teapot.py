@@ -45,6 +45,8 @@ def test_the_body_faces_outward():
     belly = (mesh.positions[:, 2] > 0.3) & (np.hypot(*mesh.positions[:, :2].T) > 1.7)
     belly &= np.abs(mesh.positions[:, 1]) > 0.7  # neither handle nor spout
     assert (np.einsum("ij,ij->i", mesh.positions[belly, :2], mesh.normals[belly, :2]) > 0).all()
+    assert (mesh.normals[mesh.positions[:, 2] < 1e-6, 2] < -0.9).all()  # the foot
+    assert (mesh.normals[mesh.positions[:, 2] > 3.149, 2] > 0.9).all()  # the knob
 
 
 def test_a_bezier_curve_begins_and_ends_at_its_control_points():

@@ -183,12 +183,11 @@ def _neighbours(axis: Axis, angle: Any) -> list[tuple[Any, Any]]:
     lower, fraction = mi.Int32(floor), position - floor
     upper = lower + 1
     if axis.periodic:
-        # A share that rounds to 1 gives a position of size - 1/2, whose lower cell is the last.
         lower = dr.select(lower < 0, axis.size - 1, lower)
         upper = dr.select(upper >= axis.size, 0, upper)
-    else:
-        lower, upper = dr.maximum(lower, 0), dr.minimum(upper, axis.size - 1)
-    return [(lower, 1 - fraction), (upper, fraction)]
+    # A direction that is no number must not read outside the table.
+    last = axis.size - 1
+    return [(dr.clip(lower, 0, last), 1 - fraction), (dr.clip(upper, 0, last), fraction)]
 
 
 def _spectrum(color: Any) -> Any:
