@@ -5,7 +5,7 @@ Commands import what they use when they run, so that ``--help`` is immediate.
 
 import typer
 
-from . import console, demo, library, mix, render, report, route, space
+from . import check, console, demo, files, library, mix, render, report, route, space, view
 
 app = typer.Typer(
     name="halfway",
@@ -18,7 +18,21 @@ app = typer.Typer(
     rich_markup_mode=None,
 )
 app.add_typer(library.app, name="library")
-for command in (demo.demo, report.report, route.route, space.space, mix.mix, render.render):
+COMMANDS = (
+    demo.demo,
+    view.view,
+    route.route,
+    mix.mix,
+    render.render,
+    report.report,
+    space.space,
+    check.check,
+    files.convert,
+    files.info,
+    files.fetch,
+    view.doctor,
+)
+for command in COMMANDS:
     app.command()(command)
 
 

@@ -11,9 +11,9 @@ from .triangulation import Triangulation
 from .walk import DelaunayWalk
 
 __all__ = [
+    "SPACES",
     "AnchoredSpace",
     "DelaunayWalk",
-    "SPACES",
     "LinearSpace",
     "Mixer",
     "PaperSpace",
