@@ -71,7 +71,9 @@ class Explorer:
         self._cache = cache
         self._pca = Pca.fit(library, cache=cache, track=track)
         self._pictures = BasisImages.fit(library, cache=cache, track=track)
-        self._spaces: dict[str, Space] = {}
+        # The page opens with the first space; the others are made when they are asked for.
+        self._spaces = {SPACES[0]: make_space(SPACES[0], library, cache=cache, track=track)}
+        self._making = Lock()
         self._tables: OrderedDict[str, Block] = OrderedDict()
         self._mixer = Mixer(library, n_rows=8)
         self._lock = Lock()
@@ -197,7 +199,7 @@ class Explorer:
         return weights
 
     def _space(self, name: str) -> Space:
-        with self._lock:
+        with self._making:
             if name not in self._spaces:
                 self._spaces[name] = make_space(name, self.library, cache=self._cache)
             return self._spaces[name]

@@ -43,7 +43,7 @@ interface View {
 // The cameras of `halfway.render.scenes`.
 const VIEWS: Record<Shape, View> = {
   sphere: { eye: new Vector3(0, -12, 1), target: new Vector3(0, 0, 1), fov: 11, wide: 11 },
-  teapot: { eye: new Vector3(0.15, -13, 5.6), target: new Vector3(0.1, 0, 1.32), fov: 28, wide: 34 },
+  teapot: { eye: new Vector3(0.15, -13, 5.6), target: new Vector3(0.1, 0, 1.32), fov: 28, wide: 31 },
 };
 const TEAPOT_HEIGHT = 3.15;
 const TEAPOT_TURN = (-28 * Math.PI) / 180;
