@@ -69,7 +69,7 @@ class Studio:
         }
 
     def wearing(self, bsdf, size: int = SIZE):
-        return self._stages[size]._load([bsdf], ground=False)
+        return self._stages[size]._load([bsdf], ground=False)[0]
 
     def render(self, scene, spp: int, seed: int) -> np.ndarray:
         import mitsuba as mi
