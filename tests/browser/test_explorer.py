@@ -126,7 +126,9 @@ def test_two_spaces_are_compared_in_one_picture(explorer: Explorer) -> None:
     explorer.wait_until_settled()
     alone = picture(explorer)
     explorer.page.locator("#compare").select_option("paper")
-    explorer.page.wait_for_function("p => document.querySelector('#material').toDataURL() !== p", arg=alone)
+    explorer.page.wait_for_function(
+        "p => document.querySelector('#material').toDataURL() !== p", arg=alone
+    )
     assert explorer.page.locator(".split").inner_text().split() == ["linear", "paper"]
     explorer.page.locator("#compare").select_option("")
     explorer.page.wait_for_function(
@@ -162,6 +164,17 @@ def test_the_present_material_is_dragged_through_the_space(explorer: Explorer) -
     explorer.page.mouse.move(x, y - 30, steps=4)
     explorer.page.mouse.up()
     explorer.page.get_by_role("button", name="Back to route").wait_for()
+
+
+def test_an_environment_is_chosen(explorer: Explorer) -> None:
+    explorer.page.set_viewport_size({"width": 460, "height": 560})
+    explorer.open(PAIR + "&t=0&light=points")
+    explorer.wait_for_picture(16)
+    explorer.page.locator("#light").select_option("forest")
+    explorer.page.wait_for_function(
+        "() => document.querySelector('.material .note').innerText.endsWith('/ 192 samples')"
+    )
+    explorer.wait_for_picture(2)
 
 
 def test_it_plays(explorer: Explorer) -> None:

@@ -1,6 +1,7 @@
 // What the page shows, in the part of the address after #: a link, or a reload, comes back to the same place.
 
 import type { LibrarySummary } from "./api/schema";
+import { LIGHTS } from "./render/environments";
 import type { Linked } from "./state";
 
 export function toHash(linked: Linked): string {
@@ -52,7 +53,7 @@ export function fromHash(hash: string, library: LibrarySummary): Partial<Linked>
       library.spaces.map(({ name }) => name),
     ),
     shape: oneOf("shape", ["sphere", "teapot"] as const),
-    light: oneOf("light", ["studio", "points"] as const),
+    light: oneOf("light", LIGHTS),
     exposure: number("exposure", -4, 4),
     orbit:
       orbit.length === 3 && orbit.every(Number.isFinite)

@@ -3,7 +3,7 @@
 import type { LibrarySummary, PlaceView, RouteView, SpaceView } from "./api/schema";
 import { fromDocument } from "./place";
 import { type Ingredient, recipeAt } from "./recipe";
-import type { Light } from "./render/painter";
+import type { Light } from "./render/environments";
 import { HOME, type Orbit, type Shape } from "./render/stage";
 import { createStore, type Store } from "./store";
 

@@ -2,9 +2,10 @@
 
 import { el, iconButton, onResize, segments } from "../dom";
 import type { Context } from "../main";
-import { toEnvironment } from "../render/environment";
+import { type Environment, toEnvironment } from "../render/environment";
+import { LIGHTS, type Light, loadPicture } from "../render/environments";
 import { Loop } from "../render/loop";
-import { type Light, Painter } from "../render/painter";
+import { Painter } from "../render/painter";
 import { HOME, type Shape } from "../render/stage";
 import { EXPOSURES } from "../state";
 import { nearestFirst } from "../wanted";
@@ -19,7 +20,7 @@ export function materialView(context: Context): HTMLElement {
     role: "img",
     "aria-label": "The material on an object; drag to turn it",
   });
-  const note = el("span.note", { "aria-live": "polite" });
+  const note = el("span.note");
   const progress = el("i");
   const home = iconButton("home", "Turn back to the front", () => store.set({ orbit: HOME }));
   store.watch(
@@ -36,23 +37,14 @@ export function materialView(context: Context): HTMLElement {
     ],
     (shape) => store.set({ shape, orbit: HOME }),
   );
-  const lights = segments<Light>(
-    "Light",
-    [
-      ["studio", "Studio"],
-      ["points", "Three lights"],
-    ],
-    (light) => store.set({ light }),
-  );
   store.watch(({ shape }) => shape, shapes.mark);
-  store.watch(({ light }) => light, lights.mark);
   const panel = el(
     "section.panel.material.stage",
     { "aria-label": "Material" },
     {},
     canvas,
     el("div.overlay.top", {}, {}, el("h2", {}, {}, "Material"), el("div.group", {}, {}, note, home)),
-    el("div.overlay.bottom", {}, {}, shapes.element, lights.element, exposure(context)),
+    el("div.overlay.bottom", {}, {}, shapes.element, lightChoice(context), exposure(context)),
     splitHandle(context),
     el("div.bar", {}, {}, progress),
   );
@@ -74,12 +66,12 @@ function paint(
 ): void {
   const { store, tables } = context;
   const { library } = store.get();
-  const painter = new Painter(canvas, tables, library.lights, toEnvironment(context.environment));
+  const painter = new Painter(canvas, tables, library.lights);
   // A slow card, or none, draws fewer pixels while something moves, and all of them when nothing does.
   let quality = 1;
   let refined = true;
   let idle = 0;
-  const measured = new Set<Light>();
+  const measured = new Set<boolean>();
   const hold = el("canvas.view.hold", { "aria-hidden": "true", hidden: true });
   canvas.after(hold);
   const fitSize = () => {
@@ -87,13 +79,38 @@ function paint(
     const [width, height] = [panel.clientWidth * ratio, panel.clientHeight * ratio];
     const scale = (refined ? 1 : quality) * Math.min(1, Math.sqrt(MOST_PIXELS / (width * height)));
     painter.resize(Math.round(width * scale), Math.round(height * scale));
-    const { shape, orbit, light } = store.get();
-    painter.look(shape, orbit, light);
+    look();
   };
+  const environments = new Map<Light, Environment | null>([
+    ["studio", toEnvironment(context.environment)],
+    ["points", null],
+  ]);
+  /** In the chosen light; while its picture loads, in the one before. */
+  const look = () => {
+    const { shape, orbit, light } = store.get();
+    const environment = environments.get(light);
+    if (environment !== undefined) shownLight = environment;
+    else if (light !== "studio" && light !== "points" && !loading.has(light)) {
+      loading.add(light);
+      loadPicture(light).then(
+        (block) => {
+          environments.set(light, toEnvironment(block));
+          loop.run();
+          if (store.get().light === light) look();
+        },
+        (error: Error) =>
+          store.set({ problem: `The environment ${light} could not be loaded: ${error.message}` }),
+      );
+    }
+    painter.look(shape, orbit, shownLight);
+  };
+  const loading = new Set<Light>();
+  let shownLight: Environment | null = environments.get("studio") ?? null;
   const measure = (name: string, light: Light) => {
-    const milliseconds = measured.has(light) ? null : painter.measure(name);
+    const kind = light === "points";
+    const milliseconds = measured.has(kind) ? null : painter.measure(name);
     if (milliseconds === null) return;
-    measured.add(light);
+    measured.add(kind);
     const share = Math.max(0.4, Math.min(1, Math.sqrt(PATIENCE / milliseconds)));
     loop.passMilliseconds = milliseconds * share ** 2;
     if (share >= quality) return;
@@ -159,9 +176,9 @@ function paint(
   });
   store.watch(
     ({ shape, orbit, light }) => [shape, orbit, light] as const,
-    ([shape, orbit, light]) => {
+    () => {
       coarsen();
-      painter.look(shape, orbit, light);
+      look();
       loop.run();
     },
   );
@@ -190,6 +207,24 @@ const SAMPLES_TO_SHOW = 48;
 const MOST_PIXELS = 1.4e6;
 /** Milliseconds that a pass over one material may take before the picture is made smaller. */
 const PATIENCE = 40;
+
+const TITLES: Partial<Record<Light, string>> = { points: "three lights" };
+
+function lightChoice({ store }: Context): HTMLElement {
+  const select = el(
+    "select.field",
+    { id: "light", "aria-label": "Light" },
+    { onchange: () => store.set({ light: select.value as Light }) },
+    ...LIGHTS.map((light) => el("option", { value: light }, {}, TITLES[light] ?? light)),
+  );
+  store.watch(
+    ({ light }) => light,
+    (light) => {
+      select.value = light;
+    },
+  );
+  return select;
+}
 
 function exposure({ store }: Context): HTMLElement {
   const [min, max] = EXPOSURES;

@@ -12,7 +12,7 @@ import type { Placement } from "./display";
 
 const BLOCKS = 12;
 const ITERATIONS = 40;
-const RADIUS = 1.6;
+const RADIUS = 1.42;
 
 export class Appearance implements Placement {
   readonly points: readonly Vector3[];

@@ -21,14 +21,12 @@ import {
 import type { PointLight } from "../api/schema";
 import type { Ingredient } from "../recipe";
 import type { Environment } from "./environment";
-import { compositeShader, MAX_TERMS, Pass, pointsShader, studioShader } from "./shaders";
+import { compositeShader, environmentShader, MAX_TERMS, Pass, pointsShader } from "./shaders";
 import { type Orbit, type Shape, Stage } from "./stage";
 import type { TableOnCard, Tables } from "./tables";
 
-export type Light = "studio" | "points";
-
-export const TARGET_SAMPLES: Record<Light, number> = { studio: 192, points: 16 };
-const SAMPLES_A_PASS: Record<Light, number> = { studio: 1, points: 1 };
+/** Under an environment, and under points. */
+const TARGET_SAMPLES = [192, 16] as const;
 const LAYER_BYTES = 400e6;
 const MIN_LAYERS = 24;
 
@@ -49,19 +47,18 @@ export class Painter {
   private readonly renderer: WebGLRenderer;
   private target: WebGLArrayRenderTarget | null = null;
   private readonly layers = new Map<string, Layer>();
-  private light: Light = "points";
+  private underPoints = true;
   private clock = 0;
   private buffered = -1;
   private shown: Shown = { recipe: [], other: [], names: [] };
   private readonly points: Pass;
-  private readonly studio: Pass;
+  private readonly environment: Pass;
   private readonly composite: Pass;
 
   constructor(
     canvas: HTMLCanvasElement,
     private readonly tables: Tables,
     lights: readonly PointLight[],
-    environment: Environment,
   ) {
     this.renderer = new WebGLRenderer({ canvas, alpha: true, antialias: false, preserveDrawingBuffer: true });
     this.renderer.autoClear = false;
@@ -95,15 +92,15 @@ export class Painter {
       },
       accumulate,
     );
-    this.studio = new Pass(
-      studioShader,
+    this.environment = new Pass(
+      environmentShader,
       {
         ...shared(),
-        uEnv: { value: environment.picture },
-        uEnvChances: { value: environment.chances },
+        uEnv: { value: null },
+        uEnvChances: { value: null },
         uLobe: { value: null },
         uFirst: { value: 0 },
-        uSamples: { value: SAMPLES_A_PASS.studio },
+        uSamples: { value: 1 },
       },
       accumulate,
     );
@@ -145,10 +142,14 @@ export class Painter {
     this.buffered = -1;
   }
 
-  /** Look from elsewhere, at something else or in another light: all samples start over. */
-  look(shape: Shape, orbit: Orbit, light: Light): void {
+  /** Look from elsewhere, at something else or in another light (none: the three points): all samples start over. */
+  look(shape: Shape, orbit: Orbit, environment: Environment | null): void {
     this.stage.look(shape, orbit);
-    this.light = light;
+    this.underPoints = environment === null;
+    if (environment !== null) {
+      this.environment.uniforms.uEnv!.value = environment.picture;
+      this.environment.uniforms.uEnvChances!.value = environment.chances;
+    }
     this.buffered = -1;
     for (const layer of this.layers.values()) layer.samples = 0;
   }
@@ -159,7 +160,7 @@ export class Painter {
   }
 
   get targetSamples(): number {
-    return TARGET_SAMPLES[this.light];
+    return TARGET_SAMPLES[this.underPoints ? 1 : 0];
   }
 
   /** Add samples to up to `passes` layers, first to those that have the fewest; false when nothing is left to do. */
@@ -243,23 +244,22 @@ export class Painter {
   }
 
   private addSamples(layer: Layer, { texture, scale, lobe }: TableOnCard): void {
-    const count = SAMPLES_A_PASS[this.light];
     if (this.buffered !== layer.samples) {
       this.buffered = layer.samples;
       // The middle of the pixel first: the picture while orbiting does not shake.
-      this.stage.draw(this.renderer, jitter(layer.samples / count, 0), jitter(layer.samples / count, 1));
+      this.stage.draw(this.renderer, jitter(layer.samples, 0), jitter(layer.samples, 1));
     }
-    const pass = this.light === "studio" ? this.studio : this.points;
+    const pass = this.underPoints ? this.points : this.environment;
     pass.uniforms.uTable!.value = texture;
     (pass.uniforms.uScale!.value as Vector3).copy(scale);
-    if (this.light === "studio") {
+    if (!this.underPoints) {
       pass.uniforms.uLobe!.value = lobe;
       pass.uniforms.uFirst!.value = layer.samples;
     }
     pass.material.blending = layer.samples === 0 ? NoBlending : CustomBlending;
-    pass.material.blendAlpha = count / (layer.samples + count);
+    pass.material.blendAlpha = 1 / (layer.samples + 1);
     pass.draw(this.renderer, this.target as never, layer.index);
-    layer.samples += count;
+    layer.samples++;
     layer.used = this.clock++;
   }
 }

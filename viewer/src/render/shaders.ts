@@ -35,7 +35,7 @@ export type Uniforms = Record<string, IUniform>;
 const HEAD = "precision highp float;\nprecision highp int;\n";
 
 export const pointsShader = HEAD + "#define POINTS\n" + halfdiff + brdf + shade;
-export const studioShader =
+export const environmentShader =
   HEAD +
   halfdiff +
   brdf +

@@ -1,0 +1,67 @@
+// Environments that come with the page: pictures from @pmndrs/assets (CC0), each loaded when it is first chosen.
+
+import { DataUtils, HalfFloatType } from "three";
+import { EXRLoader } from "three/addons/loaders/EXRLoader.js";
+
+import type { Block } from "../api/client";
+import { HALF } from "../brdf/half";
+
+const PICTURES = {
+  apartment: () => import("@pmndrs/assets/hdri/apartment.exr"),
+  city: () => import("@pmndrs/assets/hdri/city.exr"),
+  dawn: () => import("@pmndrs/assets/hdri/dawn.exr"),
+  forest: () => import("@pmndrs/assets/hdri/forest.exr"),
+  lobby: () => import("@pmndrs/assets/hdri/lobby.exr"),
+  night: () => import("@pmndrs/assets/hdri/night.exr"),
+  park: () => import("@pmndrs/assets/hdri/park.exr"),
+  sunset: () => import("@pmndrs/assets/hdri/sunset.exr"),
+  warehouse: () => import("@pmndrs/assets/hdri/warehouse.exr"),
+} as const;
+
+/** The lights one can choose: the studio of `halfway.render`, the pictures, and three points. */
+export const LIGHTS = ["studio", ...Object.keys(PICTURES), "points"] as readonly Light[];
+
+export type Light = "studio" | "points" | keyof typeof PICTURES;
+
+/** Mean radiance of every picture, about that of the studio: no exposure is needed to go from one to another. */
+const MEAN = 0.6;
+
+export async function loadPicture(light: Exclude<Light, "studio" | "points">): Promise<Block> {
+  const { default: url } = await PICTURES[light]();
+  const bytes = Uint8Array.from(atob(url.slice(url.indexOf(",") + 1)), (character) =>
+    character.charCodeAt(0),
+  );
+  const { data, width = 0, height = 0 } = new EXRLoader().setDataType(HalfFloatType).parse(bytes.buffer);
+  return {
+    halfs: normalised(upright(data as Uint16Array, width, height), height),
+    shape: [height, width, 4],
+    scale: [1, 1, 1],
+  };
+}
+
+/** The loader's first row is the lowest. */
+function upright(halfs: Uint16Array, width: number, height: number): Uint16Array<ArrayBuffer> {
+  const turned = new Uint16Array(halfs.length);
+  for (let row = 0; row < height; row++) {
+    turned.set(halfs.subarray(4 * width * row, 4 * width * (row + 1)), 4 * width * (height - 1 - row));
+  }
+  return turned;
+}
+
+function normalised(halfs: Uint16Array<ArrayBuffer>, height: number): Uint16Array<ArrayBuffer> {
+  const width = halfs.length / (4 * height);
+  let sum = 0;
+  let area = 0;
+  for (let row = 0; row < height; row++) {
+    const sine = Math.sin((Math.PI * (row + 0.5)) / height);
+    for (let column = 0; column < width; column++) {
+      const at = 4 * (row * width + column);
+      sum += sine * (HALF[halfs[at]!]! + HALF[halfs[at + 1]!]! + HALF[halfs[at + 2]!]!);
+      area += 3 * sine;
+    }
+  }
+  const scale = (MEAN * area) / sum;
+  return halfs.map((bits, i) =>
+    i % 4 === 3 ? bits : DataUtils.toHalfFloat(Math.min(scale * HALF[bits]!, 65000)),
+  );
+}
