@@ -147,6 +147,9 @@ np.save({str(tmp_path / "picture.npy")!r}, picture)
     assert done.stdout.split() == ["scalar_rgb", "False"]
     exact = Renderer("sphere", size=(24, 24), spp=4)
     assert exact.exact
-    inside = slice(6, 18), slice(6, 18)  # at the edge pixels are only partly covered, by other samples
+    inside = (
+        slice(6, 18),
+        slice(6, 18),
+    )  # at the edge pixels are only partly covered, by other samples
     picture = np.load(tmp_path / "picture.npy")
     assert_allclose(picture[inside], exact.picture(GREY)[inside], atol=0.05)
