@@ -235,6 +235,7 @@ def test_every_change_is_listed():
     ):
         assert said.startswith(expected)
     assert check(repaired.table).ok
+    assert check(repaired.table).mask_is_the_grids
     assert repaired.table.name == "clay"
 
 
@@ -269,3 +270,6 @@ def test_scaling_down_keeps_what_was_sound():
     repaired = repair(bright).table
     assert check(repaired).ok
     assert_allclose(repaired.values[:, MASK & (np.maximum(theta_i, theta_o) < 50)], 0.05)
+    # The lesser factor of the two rules, whichever of them is grazing, or the table were not reciprocal.
+    one_grazing = (np.minimum(theta_i, theta_o) < 40) & (np.maximum(theta_i, theta_o) > 82)
+    assert (repaired.values[:, MASK & one_grazing] < 0.04).all()
