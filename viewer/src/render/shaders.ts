@@ -34,7 +34,7 @@ export type Uniforms = Record<string, IUniform>;
 
 const HEAD = "precision highp float;\nprecision highp int;\n";
 
-export const pointsShader = HEAD + "#define POINTS\n" + halfdiff + brdf + shade;
+export const pointsShader = `${HEAD}#define POINTS\n${halfdiff}${brdf}${shade}`;
 export const environmentShader =
   HEAD +
   halfdiff +
