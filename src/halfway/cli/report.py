@@ -2,7 +2,7 @@
 
 import json
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
@@ -14,19 +14,33 @@ def report(
     output: Annotated[
         Path, typer.Option("--output", "-o", metavar="DIR", help="The folder to write.")
     ] = Path("report"),
+    pairs: Annotated[
+        int,
+        typer.Option(
+            help="Pairs of materials that spaces are compared on; 0 compares none, -1 takes all."
+        ),
+    ] = 0,
+    seed: Annotated[int, typer.Option(help="Of the sample of pairs.")] = 0,
     as_json: Annotated[bool, typer.Option("--json", help="Print report.json.")] = False,
 ) -> None:
-    """Principal components of a library: Table I, eigenvalues, triangulation.
+    """Principal components of a library: Table I, eigenvalues, triangulation; and how well spaces move in it.
 
     \b
     halfway report merl.brdflib -o report
+    halfway report merl_nbrdf.zip --pairs 200
     """
-    from halfway.export import write_report
+    from halfway.export import compare_spaces, write_report
     from halfway.library import Pca, open_library
 
     library = open_library(lib)
     pca = Pca.fit(library, cache=cache_folder(), track=track)
-    found = write_report(output, library, pca)
+    n_pairs = None if pairs < 0 else pairs
+    compared = (
+        compare_spaces(library, pca, n_pairs=n_pairs, seed=seed, cache=cache_folder(), track=track)
+        if pairs
+        else []
+    )
+    found = write_report(output, library, pca, spaces=compared)
     if as_json:
         print(json.dumps(found.to_json(), indent=1))
     else:
@@ -39,4 +53,22 @@ def report(
                 f"{row.n_components:10d}  {row.mean_relative_error:19.4f}  {row.mean_relative_error_uncentred:9.4f}  "
                 f"{row.total_relative_error:7.4f}  {row.unexplained_variance:20.2e}  {row.rms_error:16.4g}"
             )
+        _print_spaces(compared)
     say(f"{output}: report.json, eigenvalues and triangulation (png, svg)")
+
+
+def _print_spaces(spaces: list[dict[str, Any]]) -> None:
+    if not spaces:
+        return
+    print(
+        "space     detour: median  90 %   max  jump, perceptual: max  judged  hue strays  realism  others  left out"
+    )
+    for found in spaces:
+        detour, left = found["detour"], found.get("leave_one_out")
+        print(
+            f"{found['space']:9} {detour['median']:14.3f} {detour['90th percentile']:5.2f} {detour['max']:5.2f} "
+            f"{found['jump']['perceptual']['max']:22.3f} {found['judged_jump']['perceptual']['max']:7.3f} "
+            f"{found['hue_excursion']['median']:11.2f} {found['realism']['log by cell']['median']:8.4f} "
+            f"{found['others']['median']:7.2f} "
+            + (f"{left['log']['mean']:9.4f}" if left else "        -")
+        )

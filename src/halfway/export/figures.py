@@ -1,6 +1,6 @@
 """The paper's Figures 2 and 3, as matplotlib figures."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from functools import wraps
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -92,6 +92,30 @@ def triangulation(pca: Pca, label: str) -> "Figure":
         f"{label}: {len(pca.names)} materials, Delaunay triangulation of two scores per channel",
     )
     return figure
+
+
+def spaces(measured: Sequence[Mapping[str, Any]], label: str) -> "Figure":
+    """Detour against realism of each space, median and 90th percentile: left is direct, low is real."""
+    import matplotlib as mpl
+
+    with mpl.rc_context(STYLE):
+        figure, ax = _subplots(1, 1, (6, 4.2))
+        for found in measured:
+            detour, realism = found["detour"], found["realism"]["log by cell"]
+            x, y = (
+                np.array([values["median"], values["90th percentile"]])
+                for values in (detour, realism)
+            )
+            ax.plot(x, y, "-", lw=1, alpha=0.5, color="#555")
+            ax.plot(x[:1], y[:1], "o", label=found["space"])
+        ax.set(
+            xscale="log",
+            xlabel="detour (median, to the 90th percentile)",
+            ylabel="difference from the nearest material",
+        )
+        ax.legend()
+        _caption(figure, f"{label}: {measured[0]['n_pairs']} pairs, mixes at t = 1/2")
+        return figure
 
 
 def write(stem: Path, figure: "Figure") -> None:

@@ -6,7 +6,7 @@ of |u_i - u_i,k| / |u_i| (u centred) comes nearest to its numbers, and leads; th
 
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +14,18 @@ import numpy as np
 
 from ..files import replacing
 from ..library import Library, Pca
+from ..space import (
+    SPACES,
+    AnchoredPlace,
+    Bench,
+    PaperPlace,
+    evaluate,
+    leave_one_out,
+    make_space,
+    sample_pairs,
+)
 from ..space.recipe import CHANNELS
+from ..tasks import Track, silent
 from . import figures
 
 FORMAT = 1
@@ -47,6 +58,8 @@ class Report:
     description: str
     table_1: tuple[TableRow, ...]
     eigenvalues: Mapping[str, list[float]]
+    spaces: tuple[Mapping[str, Any], ...] = ()
+    """Measures of each space: `halfway.space.Evaluation` and `halfway.space.LeaveOneOut`, as JSON."""
 
     def to_json(self) -> dict[str, Any]:
         """The document that ``halfway report --json`` prints."""
@@ -81,9 +94,35 @@ def table_row(pca: Pca, n_components: int) -> TableRow:
     )
 
 
-def write_report(folder: Path, library: Library, pca: Pca) -> Report:
-    """Write report.json and the figures into ``folder``."""
-    report = Report.of(library, pca)
+def compare_spaces(
+    library: Library,
+    pca: Pca,
+    *,
+    n_pairs: int | None,
+    seed: int = 0,
+    cache: Path | None = None,
+    track: Track = silent,
+) -> list[dict[str, Any]]:
+    """Every space measured on the same pairs of materials (None: all), and leaving out each material in turn."""
+    bench = Bench.fit(library, cache=cache, track=track)
+    pairs = sample_pairs(len(library), n_pairs, seed=seed)
+    places = {"paper": PaperPlace(pca), "anchored": AnchoredPlace(pca, bench.samples.body)}
+    measured: list[dict[str, Any]] = []
+    for name in SPACES:
+        space = make_space(name, library, cache=cache, track=track)
+        found = {"seed": seed} | evaluate(space, bench, pairs, track=track).to_json()
+        if name in places:
+            left = leave_one_out(name, places[name], bench, track=track).to_json()
+            found["leave_one_out"] = {key: value for key, value in left.items() if key != "space"}
+        measured.append(found)
+    return measured
+
+
+def write_report(
+    folder: Path, library: Library, pca: Pca, *, spaces: Sequence[Mapping[str, Any]] = ()
+) -> Report:
+    """Write report.json and the figures into ``folder``; ``spaces`` are those of `compare_spaces`."""
+    report = replace(Report.of(library, pca), spaces=tuple(spaces))
     with replacing(folder / "report.json") as temporary:
         temporary.write_text(json.dumps(report.to_json(), indent=1))
     label = Path(library.name).name
@@ -91,4 +130,6 @@ def write_report(folder: Path, library: Library, pca: Pca) -> Report:
         label += " (stand-ins, not measurements)"
     figures.write(folder / "eigenvalues", figures.eigenvalues(pca, label))
     figures.write(folder / "triangulation", figures.triangulation(pca, label))
+    if spaces:
+        figures.write(folder / "spaces", figures.spaces(spaces, label))
     return report

@@ -19,9 +19,10 @@ from ..brdf.metrics import MAPPINGS
 from ..errors import OutsideHullError
 from ..library import Pca
 from ..tasks import Track, run, silent
+from .anchored import anchored_scale
 from .evaluation import Bench
 from .hull import nearest_in_hull
-from .triangulation import Triangulation
+from .walk import DelaunayWalk
 
 Place = Callable[[int], Float64[np.ndarray, "3 N"]]
 """The weights over all materials where material i stands in the space of the others; its own weight is 0."""
@@ -83,6 +84,28 @@ class PaperPlace:
         return weights
 
 
+@dataclass(frozen=True, eq=False)
+class AnchoredPlace:
+    """Where the anchored space of the others puts a material: their joint PCA, as in `PaperPlace`, and its body colour."""
+
+    pca: Pca
+    body: Float64[np.ndarray, "N 3"]
+    n_components: int = 3
+
+    def __call__(self, i: int) -> Float64[np.ndarray, "3 N"]:
+        """The weights over all materials where material ``i`` stands in the space of the others."""
+        others = np.delete(np.arange(len(self.pca.names)), i)
+        v = self.pca.eigenvectors
+        gram = np.einsum("cij,cj,ckj->ik", v, self.pca.eigenvalues, v)
+        placed = _project(gram, i, others, self.n_components)
+        points = np.concatenate([placed.others, self.body[others]], axis=1)
+        scale = anchored_scale(points, self.n_components)
+        weights = np.zeros(len(self.pca.names))
+        own = np.concatenate([placed.own, self.body[i]])
+        weights[others] = hull_weights(points * scale, own * scale)
+        return np.stack([weights] * 3)
+
+
 class _Placed(NamedTuple):
     others: Points
     own: Float64[np.ndarray, " k"]
@@ -103,9 +126,9 @@ def _project(
 
 
 def hull_weights(points: Points, x: Float64[np.ndarray, " k"]) -> Float64[np.ndarray, " n_points"]:
-    """Barycentric weights of ``x`` in the Delaunay triangulation of ``points``, or of the nearest point of their hull."""
+    """Delaunay weights of ``x`` over ``points``, or of the nearest point of their hull."""
     try:
-        return Triangulation.of(points).weights(x)
+        return DelaunayWalk.of(points).weights(x)
     except OutsideHullError:
         return nearest_in_hull(points, x)
 
