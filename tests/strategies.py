@@ -23,7 +23,9 @@ def directions(draw: st.DrawFn, max_degrees: float = 89.0) -> np.ndarray:
 def points(n: int, k: int) -> st.SearchStrategy[np.ndarray]:
     """``n`` points in ``k`` dimensions, some of them on a coarse lattice: coincident, collinear, coplanar."""
     lattice = hnp.arrays(np.float64, (n, k), elements=st.integers(-3, 3).map(float))
-    general = st.integers(0, 2**32 - 1).map(lambda seed: np.random.default_rng(seed).normal(size=(n, k)))
+    general = st.integers(0, 2**32 - 1).map(
+        lambda seed: np.random.default_rng(seed).normal(size=(n, k))
+    )
     return lattice | general
 
 

@@ -33,7 +33,9 @@ def test_known_angles(wi, wo, degrees):
         (angles.theta_d, angles.phi_d, *np.radians(degrees[2:])),
     ):
         assert_allclose(theta, want_theta, atol=1e-12)
-        assert_allclose(np.sin(theta) * np.exp(1j * phi), np.sin(want_theta) * np.exp(1j * want_phi), atol=1e-12)
+        assert_allclose(
+            np.sin(theta) * np.exp(1j * phi), np.sin(want_theta) * np.exp(1j * want_phi), atol=1e-12
+        )
 
 
 @given(directions(), directions())
@@ -48,7 +50,11 @@ def test_swapping_light_and_viewer_turns_phi_d_by_pi(wi, wo):
     """Helmholtz reciprocity, in these coordinates, is a half turn of phi_d."""
     a, b = to_half_diff(wi, wo), to_half_diff(wo, wi)
     assert_allclose([a.theta_h, a.theta_d], [b.theta_h, b.theta_d], atol=1e-12)
-    assert_allclose(np.sin(a.theta_d) * np.exp(1j * a.phi_d), -np.sin(b.theta_d) * np.exp(1j * b.phi_d), atol=1e-12)
+    assert_allclose(
+        np.sin(a.theta_d) * np.exp(1j * a.phi_d),
+        -np.sin(b.theta_d) * np.exp(1j * b.phi_d),
+        atol=1e-12,
+    )
 
 
 @given(directions(), directions(), st.floats(-3, 3))
@@ -65,7 +71,9 @@ def test_turning_the_surface_changes_phi_h_alone(wi, wo, turn):
 @given(directions(), directions())
 def test_cosines_are_the_z_of_the_directions(wi, wo):
     angles = to_half_diff(wi, wo)
-    assert_allclose(cosines(angles.theta_h, angles.theta_d, angles.phi_d), [wi[2], wo[2]], atol=1e-12)
+    assert_allclose(
+        cosines(angles.theta_h, angles.theta_d, angles.phi_d), [wi[2], wo[2]], atol=1e-12
+    )
 
 
 def test_the_first_theta_h_bins_are_resolved():
@@ -83,7 +91,9 @@ def test_theta_h_is_square_root_spaced(angle, position):
     assert_allclose(MERL.axes[0].to_position(np.radians(angle)), position, rtol=1e-12)
 
 
-@pytest.mark.parametrize(("angle", "position"), [(0, 0), (90, 90), (180, 0), (-90, 90), (-45, 135), (270, 90)])
+@pytest.mark.parametrize(
+    ("angle", "position"), [(0, 0), (90, 90), (180, 0), (-90, 90), (-45, 135), (270, 90)]
+)
 def test_phi_d_has_period_pi(angle, position):
     assert_allclose(MERL.axes[2].to_position(np.radians(angle)) % 180, position, atol=1e-9)
 

@@ -37,7 +37,9 @@ def test_a_folder_of_files_becomes_a_library(folder, tmp_path):
     built = build_library([folder], tmp_path / "tiny.brdflib")
     assert built.library.names == ("material-0", "material-1", "material-2", "material-3")
     assert built.library.grid == TINY
-    assert [(item.path.rsplit("/", 1)[-1], item.reason) for item in built.skipped] == [("LICENSE.txt", "is text")]
+    assert [(item.path.rsplit("/", 1)[-1], item.reason) for item in built.skipped] == [
+        ("LICENSE.txt", "is text")
+    ]
     for name, table in random_tables(4, TINY).items():
         assert_allclose(built.library.brdf(name).values, table.values, rtol=1e-6)
 
@@ -57,7 +59,9 @@ def test_rows_and_columns_are_the_same_samples(stored):
 
 
 def test_blocks_cover_the_grid_once():
-    library = ProceduralLibrary("merl-sized", random_tables(2, Grid.merl(90, 6, 8)), grid=Grid.merl(90, 6, 8))
+    library = ProceduralLibrary(
+        "merl-sized", random_tables(2, Grid.merl(90, 6, 8)), grid=Grid.merl(90, 6, 8)
+    )
     covered = np.concatenate([np.arange(block.start, block.stop) for block in library.blocks()])
     np.testing.assert_array_equal(covered, np.arange(library.grid.size))
 
@@ -72,7 +76,9 @@ def test_stored_and_procedural_give_the_same(small_library, tmp_path):
     assert_allclose(a.eigenvalues, b.eigenvalues, rtol=1e-9, atol=1e-9 * a.eigenvalues.max())
     assert_allclose(a.scores(3), b.scores(3), rtol=1e-6, atol=1e-9 * abs(a.scores(3)).max())
     recipe = {"material-1": 0.25, "material-4": 0.75}
-    mixes = [mix(library, Recipe.of(library.name, recipe)).values for library in (small_library, stored)]
+    mixes = [
+        mix(library, Recipe.of(library.name, recipe)).values for library in (small_library, stored)
+    ]
     assert_allclose(*mixes, rtol=1e-6)
 
 
@@ -86,7 +92,9 @@ def test_the_checksum_follows_the_samples(folder, tmp_path):
 
 def test_tables_of_two_grids_are_refused(folder, tmp_path):
     write_merl(folder / "other.binary", random_tables(1, Grid.merl(2, 3, 4))["material-0"])
-    with pytest.raises(LibraryError, match=r"2 different grids .*3 x 4 x 5.*2 x 3 x 4|2 x 3 x 4.*3 x 4 x 5"):
+    with pytest.raises(
+        LibraryError, match=r"2 different grids .*3 x 4 x 5.*2 x 3 x 4|2 x 3 x 4.*3 x 4 x 5"
+    ):
         build_library([folder], tmp_path / "mixed.brdflib")
     assert not (tmp_path / "mixed.brdflib").exists()
 
@@ -119,7 +127,11 @@ def test_a_damaged_source_leaves_the_old_library(folder, stored):
 
 def test_building_again_replaces_the_library(folder, stored):
     (folder / "material-0.binary").unlink()
-    assert build_library([folder], stored.path).library.names == ("material-1", "material-2", "material-3")
+    assert build_library([folder], stored.path).library.names == (
+        "material-1",
+        "material-2",
+        "material-3",
+    )
     assert sorted(os.listdir(stored.path.parent)) == ["measured", "tiny.brdflib"]
 
 
@@ -131,7 +143,10 @@ def test_building_again_replaces_the_library(folder, stored):
         (lambda p: (p / "library.json").write_text('{"format": 1}'), "lacks what a library needs"),
         (lambda p: (p / "tables.npy").unlink(), "tables.npy cannot be read"),
         (lambda p: (p / "tables.npy").write_bytes(b"\x93NUMPY"), "tables.npy cannot be read"),
-        (lambda p: np.save(p / "tables.npy", np.zeros(3)), r"holds float64 \(3,\): library.json describes"),
+        (
+            lambda p: np.save(p / "tables.npy", np.zeros(3)),
+            r"holds float64 \(3,\): library.json describes",
+        ),
     ],
 )
 def test_a_damaged_library_is_refused(stored, damage, message):
@@ -143,12 +158,18 @@ def test_a_damaged_library_is_refused(stored, damage, message):
 def test_a_newer_library_asks_for_an_upgrade(stored):
     path = stored.path / "library.json"
     path.write_text(path.read_text().replace('"format": 1', '"format": 2'))
-    with pytest.raises(LibraryError, match="has library format 2, and this version of halfway reads format 1: upgrade"):
+    with pytest.raises(
+        LibraryError,
+        match="has library format 2, and this version of halfway reads format 1: upgrade",
+    ):
         StoredLibrary(stored.path)
 
 
 def test_a_misspelt_material_gets_the_nearest_names(small_library):
-    with pytest.raises(LibraryError, match=r"'materail-3' is not one of the 9 materials of small: did you mean material-3"):
+    with pytest.raises(
+        LibraryError,
+        match=r"'materail-3' is not one of the 9 materials of small: did you mean material-3",
+    ):
         small_library.index("materail-3")
 
 
@@ -156,13 +177,17 @@ def test_the_builtin_library_is_the_hundred_materials():
     library = open_library("builtin:merl-abc")
     assert len(library) == 100
     assert "stand-in" in library.origin.description
-    np.testing.assert_array_equal(np.isnan(library.row(5)).any(axis=0), ~library.grid.mask().ravel())
+    np.testing.assert_array_equal(
+        np.isnan(library.row(5)).any(axis=0), ~library.grid.mask().ravel()
+    )
 
 
 def test_a_builtin_library_can_be_stored_beside_files(tmp_path):
     """What can be sampled anywhere takes the grid of the tables it stands with."""
     write_merl(tmp_path / "mine.binary", random_tables(1, TINY)["material-0"])
-    library = build_library([tmp_path / "mine.binary", "builtin:merl-abc"], tmp_path / "both.brdflib").library
+    library = build_library(
+        [tmp_path / "mine.binary", "builtin:merl-abc"], tmp_path / "both.brdflib"
+    ).library
     assert (len(library), library.grid) == (101, TINY)
 
 
@@ -192,7 +217,9 @@ def test_the_cache_gives_back_what_was_computed(tmp_path):
 
 def test_a_damaged_cache_is_replaced(tmp_path):
     (tmp_path / "key.npz").write_bytes(b"PK\x03\x04 half a file")
-    np.testing.assert_array_equal(cached(tmp_path, "key", lambda: {"a": np.ones(2)})["a"], np.ones(2))
+    np.testing.assert_array_equal(
+        cached(tmp_path, "key", lambda: {"a": np.ones(2)})["a"], np.ones(2)
+    )
     np.testing.assert_array_equal(np.load(tmp_path / "key.npz")["a"], np.ones(2))
 
 

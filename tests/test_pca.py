@@ -27,10 +27,19 @@ def test_eigenvalues_and_scores_are_scikit_learns(small_library):
         other, x = reference(small_library, channel)
         n = len(small_library)
         # Theirs is the variance, a mean; the paper's covariance is a sum. The last is 0 but for rounding.
-        assert_allclose(pca.eigenvalues[channel, : n - 1], other.explained_variance_[: n - 1] * (n - 1), rtol=1e-9)
+        assert_allclose(
+            pca.eigenvalues[channel, : n - 1],
+            other.explained_variance_[: n - 1] * (n - 1),
+            rtol=1e-9,
+        )
         theirs = other.transform(x[:, ~np.isnan(x).any(axis=0)])[:, :3]
         ours = pca.scores(3)[channel]
-        assert_allclose(ours * np.sign((ours * theirs).sum(axis=0)), theirs, rtol=1e-7, atol=1e-7 * abs(theirs).max())
+        assert_allclose(
+            ours * np.sign((ours * theirs).sum(axis=0)),
+            theirs,
+            rtol=1e-7,
+            atol=1e-7 * abs(theirs).max(),
+        )
 
 
 def test_scores_are_centred_and_uncorrelated(small_library):
@@ -46,7 +55,10 @@ def test_all_components_reconstruct_the_material(small_library):
     pca = Pca.fit(small_library)
     table = small_library.brdf("material-3")
     assert_allclose(
-        pca.reconstruct(small_library, "material-3", 9).values, table.values, rtol=1e-5, atol=1e-5 * np.nanmax(table.values)
+        pca.reconstruct(small_library, "material-3", 9).values,
+        table.values,
+        rtol=1e-5,
+        atol=1e-5 * np.nanmax(table.values),
     )
 
 
@@ -97,13 +109,17 @@ def test_the_relative_error_of_two_materials_by_hand():
     library = ProceduralLibrary("two", random_tables(2, GRID), grid=GRID)
     pca = Pca.fit(library)
     nothing, everything = table_row(pca, 0), table_row(pca, 1)
-    assert_allclose([nothing.mean_relative_error, nothing.total_relative_error, nothing.unexplained_variance], 1)
+    assert_allclose(
+        [nothing.mean_relative_error, nothing.total_relative_error, nothing.unexplained_variance], 1
+    )
     assert_allclose([everything.mean_relative_error, everything.rms_error], 0, atol=1e-6)
 
 
 @pytest.fixture(scope="module")
 def neural(shared_data):
-    return Report.of(library := open_library(shared_data / "nbrdf" / "merl_nbrdf.zip"), Pca.fit(library))
+    return Report.of(
+        library := open_library(shared_data / "nbrdf" / "merl_nbrdf.zip"), Pca.fit(library)
+    )
 
 
 def test_table_1_on_the_neural_stand_in(neural):

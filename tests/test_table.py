@@ -45,7 +45,9 @@ def test_trilinear_agrees_with_scipy():
     reference = RegularGridInterpolator(nodes, np.moveaxis(padded, 0, -1))
     wi, wo = random_pairs(200)
     angles = to_half_diff(wi, wo)
-    positions = np.stack([axis.to_position(getattr(angles, axis.angle)) for axis in GRID.axes], axis=-1)
+    positions = np.stack(
+        [axis.to_position(getattr(angles, axis.angle)) for axis in GRID.axes], axis=-1
+    )
     assert_allclose(TabularBrdf(values, GRID).eval(wi, wo), reference(positions), rtol=1e-6)
 
 
@@ -84,7 +86,9 @@ def test_batches_of_any_shape():
 
 
 def test_a_table_of_the_wrong_shape_is_refused():
-    with pytest.raises(FormatError, match=r"has shape \(3, 3, 4, 5\): a 6 x 5 x 8 grid takes \(3, 6, 5, 8\)"):
+    with pytest.raises(
+        FormatError, match=r"has shape \(3, 3, 4, 5\): a 6 x 5 x 8 grid takes \(3, 6, 5, 8\)"
+    ):
         TabularBrdf(np.zeros((3, *TINY.shape), np.float32), GRID)
 
 
@@ -140,7 +144,9 @@ def test_floor_and_trilinear_agree_in_the_mean():
         for degrees in (10, 45, 74):
             a, b = (
                 directional_albedo(
-                    lambda wi, wo, t=table, i=i: t.eval(wi, wo, interpolation=i), np.radians(degrees), n_phi_h=36
+                    lambda wi, wo, t=table, i=i: t.eval(wi, wo, interpolation=i),
+                    np.radians(degrees),
+                    n_phi_h=36,
                 )
                 for i in ("trilinear", "floor")
             )
