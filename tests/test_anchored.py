@@ -7,6 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 from strategies import points
+from test_triangulation import quietly
 
 from halfway import Pca, Route, open_library
 from halfway.brdf.image_metrics import appearance, ciede2000_difference, cielab_difference
@@ -23,7 +24,6 @@ from halfway.space import (
 )
 from halfway.space.hull import nearest_in_hull
 from halfway.space.spaces import interpolate
-from test_triangulation import quietly
 
 GRID = Grid.merl(8, 6, 10)
 
@@ -214,7 +214,7 @@ def test_what_no_space_can_be_made_of(make, options, message):
         make(**options)
 
 
-def test_cherry_to_tungsten_carbide_on_the_neural_stand_in(shared_data, tmp_path_factory):
+def test_cherry_to_tungsten_carbide_on_the_neural_stand_in(shared_data):
     """The paper's hardest pair: straight in colour, evenly paced, through other materials."""
     library = open_library(shared_data / "nbrdf" / "merl_nbrdf.zip")
     wanted = [

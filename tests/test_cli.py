@@ -72,7 +72,8 @@ def test_every_command_explains_itself(run, command):
     assert "Usage: halfway" in out
 
 
-def test_build_says_what_it_skipped_and_what_is_next(run, tmp_path, lib):
+@pytest.mark.usefixtures("lib")
+def test_build_says_what_it_skipped_and_what_is_next(run):
     code, _, talk = run("library", "build", "measured", "-o", "again.brdflib")
     assert code == 0
     assert "skipped measured/README: is text" in talk

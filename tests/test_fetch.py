@@ -393,3 +393,14 @@ def test_a_damaged_zip_is_refused(tmp_path, keep):
     with pytest.raises(FetchError, match="is a damaged zip"):
         unpack(tmp_path / "x.zip", tmp_path)
     assert [p.name for p in tmp_path.iterdir()] == ["x.zip"]
+
+
+def test_a_member_without_a_name_is_refused(tmp_path):
+    packed = bytearray(zipped({"a": b"1"}))
+    directory = packed.index(b"PK\1\2")
+    # The name's length, in the directory; the name becomes the first byte of the extra field.
+    packed[directory + 28 : directory + 30] = b"\0\0"
+    packed[directory + 32 : directory + 34] = b"\1\0"
+    (tmp_path / "x.zip").write_bytes(bytes(packed))
+    with pytest.raises(FetchError, match=r"leads out of the folder|is a damaged zip"):
+        unpack(tmp_path / "x.zip", tmp_path / "in")

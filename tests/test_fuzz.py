@@ -157,9 +157,16 @@ def _zip(folder):
     return content.getvalue()
 
 
+class Valid(dict):
+    """Valid files by kind; short where a failing case is printed."""
+
+    def __repr__(self):
+        return "valid"
+
+
 @pytest.fixture(scope="module")
 def valid(folder):
-    return {"merl": _merl(folder), "rgl": _rgl(), "nbrdf": _nbrdf(folder), "zip": _zip(folder)}
+    return Valid(merl=_merl(folder), rgl=_rgl(), nbrdf=_nbrdf(folder), zip=_zip(folder))
 
 
 @pytest.mark.parametrize("kind", ["merl", "rgl", "nbrdf"])

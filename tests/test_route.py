@@ -132,7 +132,9 @@ def test_steps_include_every_stop(space):
 
 
 def test_steps_and_components_have_limits(small_library, space, pca):
-    with pytest.raises(SpaceError, match="a route of 1 materials cannot pass 2 stops: expected -n 2 or more"):
+    with pytest.raises(
+        SpaceError, match="a route of 1 materials cannot pass 2 stops: expected -n 2 or more"
+    ):
         Route.through(space, ["material-1", "material-2"]).steps(1)
     with pytest.raises(SpaceError, match="of 7 components cannot be made: expected 1 to 6"):
         PaperSpace.fit(small_library, pca, n_components=7)
@@ -185,7 +187,7 @@ def test_a_mixer_keeps_a_bounded_number_of_rows(small_library):
 
 
 def test_the_papers_fine_navigation_on_the_builtin_library():
-    """t = .0001, .0002 ... 1: ten thousand recipes, each convex, none far from its neighbour."""
+    """At t = .0001, .0002 ... 1: ten thousand recipes, each convex, none far from its neighbour."""
     library = open_library("builtin:merl-abc")
     space = make_space("paper", library)
     route = Route.through(space, ["cherry-235", "tungsten-carbide"])

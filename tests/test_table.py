@@ -108,7 +108,7 @@ def test_a_white_diffuse_surface_reflects_everything(degrees):
 
 
 def test_albedo_of_a_lobe_with_a_closed_form():
-    """f = 1 where theta_h is below a, else 0: seen along the normal, theta_o runs to 2 a, and the albedo is pi sin^2(2a)."""
+    """With f = 1 where theta_h is below a, else 0: seen along the normal, theta_o runs to 2 a, and the albedo is pi sin^2(2a)."""
     a = np.radians(25)
 
     def lobe(wi, wo):
