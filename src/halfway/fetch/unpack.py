@@ -30,7 +30,8 @@ def unpack(archive: Path, folder: Path) -> list[Path]:
     """
     try:
         with zipfile.ZipFile(archive) as opened:
-            members = [info for info in opened.infolist() if not info.is_dir()]
+            # `is_dir` fails on a member without a name.
+            members = [info for info in opened.infolist() if not info.filename.endswith("/")]
             _require_modest(archive, members)
             paths = [folder / _inner(archive, info) for info in members]
             require_space(folder, sum(info.file_size for info in members), archive.name)
@@ -38,7 +39,7 @@ def unpack(archive: Path, folder: Path) -> list[Path]:
                 _write(opened, info, path)
     except (zipfile.BadZipFile, zlib.error, EOFError, NotImplementedError, RuntimeError) as error:
         raise FetchError(
-            f"{archive.name} is a damaged zip ({error}): delete it and fetch it again."
+            f"{archive.name} is a damaged zip ({str(error)[:100]}): delete it and fetch it again."
         ) from error
     return paths
 
@@ -66,10 +67,10 @@ def _inner(archive: Path, info: zipfile.ZipInfo) -> Path:
     )
     if outside or not path.parts:
         raise FetchError(
-            f"{archive.name} has a member {name!r}, which leads out of the folder: it was not unpacked."
+            f"{archive.name} has a member {name[:100]!r}, which leads out of the folder: it was not unpacked."
         )
     if stat.S_ISLNK(info.external_attr >> 16):
-        raise FetchError(f"{archive.name} has a link in it, {name!r}: it was not unpacked.")
+        raise FetchError(f"{archive.name} has a link in it, {name[:100]!r}: it was not unpacked.")
     return Path(*path.parts)
 
 

@@ -100,9 +100,9 @@ def _decode(content: bytes, label: str) -> NeuralBrdf:
     try:
         with h5py.File(io.BytesIO(content)) as file:
             weights = [weight for layer in _layers(file, label) for weight in layer]
-    except (OSError, RuntimeError, ValueError, KeyError, TypeError, AttributeError) as error:
+    except (OSError, RuntimeError, ValueError, LookupError, TypeError, AttributeError, ArithmeticError, MemoryError) as error:  # fmt: skip
         raise FormatError(
-            f"{label} is a damaged HDF5 file ({error}): expected the Keras weights of a neural BRDF. "
+            f"{label} is a damaged HDF5 file ({' '.join(str(error).split())[:100]}): expected the Keras weights of a neural BRDF. "
             "Compare it with the original download."
         ) from error
     shapes = tuple(weight.shape for weight in weights)

@@ -158,9 +158,10 @@ def members(archive: Path) -> list[MemberSource]:
         opened = zipfile.ZipFile(archive)
     except _UNREADABLE as error:
         raise FormatError(
-            f"{archive.name} is a damaged zip ({error}): compare it with the original download."
+            f"{archive.name} is a damaged zip ({str(error)[:100]}): compare it with the original download."
         ) from error
-    infos = [info for info in opened.infolist() if not info.is_dir()]
+    # `is_dir` fails on a member without a name.
+    infos = [info for info in opened.infolist() if not info.filename.endswith("/")]
     infos.sort(key=lambda info: by_name(PurePosixPath(info.filename)))
     return [MemberSource(opened, info) for info in infos]
 
