@@ -33,7 +33,9 @@ def main(where: str) -> None:
     )
     print("|---|---|---|---|---|---|---|---|")
     for name, space in spaces.items():
-        found = evaluate(space, bench, sample_pairs(len(library), N_PAIRS), paces={"uniform": uniform}).to_json()
+        found = evaluate(
+            space, bench, sample_pairs(len(library), N_PAIRS), paces={"uniform": uniform}
+        ).to_json()
         detour, realism = found["detour"], found["realism"]
         rows[name] = detour["90th percentile"], realism["log by cell"]["median"]
         print(

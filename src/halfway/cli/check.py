@@ -30,6 +30,8 @@ def check(
 ) -> None:
     """Print the validity card of BRDFs; exit 1 when a law is broken.
 
+    What is no table (neural, RGL) is checked as the table that a library takes of it.
+
     \b
     halfway check route/025.binary
     halfway check builtin:merl-abc
@@ -52,7 +54,7 @@ def check(
             say(change)
         return
     cards = [
-        (word, card_of(material.load()))
+        (word, card_of(material.table()))
         for word, material in zip(
             _sources(words, materials), track(materials, "Checking", len(materials)), strict=True
         )
