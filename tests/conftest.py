@@ -5,21 +5,21 @@ Shapes and dtypes in the package's annotations are checked while the tests run.
 
 from pathlib import Path
 
-import numpy as np
 import pytest
 from hypothesis import settings
 from jaxtyping import install_import_hook
 
 SOURCE = Path(__file__).parents[1] / "src"
 # Compiled code has types of its own; a class of the renderer is made by it.
-UNCHECKED = ("halfway.space.kernel", "halfway.render.bsdf")
+UNCHECKED = ("halfway.space.kernel", "halfway.brdf.ciede2000_kernel", "halfway.render.bsdf")
 MODULES = [
     ".".join(path.relative_to(SOURCE).with_suffix("").parts) for path in SOURCE.rglob("*.py")
 ]
 install_import_hook([name for name in MODULES if name not in UNCHECKED], "typechecker.check")
 
-from halfway.brdf import TabularBrdf  # noqa: E402 (after the hook)
-from halfway.halfdiff import Grid  # noqa: E402
+from strategies import random_tables  # noqa: E402
+
+from halfway.halfdiff import Grid  # noqa: E402 (after the hook)
 from halfway.library import ProceduralLibrary  # noqa: E402
 
 # On a busy machine a draw may take long; what a test may take is CI's business.
@@ -35,17 +35,6 @@ def shared_data() -> Path:
     if not SHARED_DATA.is_dir():
         pytest.skip("needs the data folder ../shared/data, which is not part of the repository")
     return SHARED_DATA
-
-
-def random_tables(n: int, grid: Grid, seed: int = 0) -> dict[str, TabularBrdf]:
-    """``n`` reproducible tables: positive where both directions are above the horizon, NaN elsewhere."""
-    rng = np.random.default_rng(seed)
-    tables = {}
-    for name in map("material-{}".format, range(n)):
-        values = rng.gamma(0.5, size=(3, *grid.shape)).astype(np.float32)
-        values[:, ~grid.mask()] = np.nan
-        tables[name] = TabularBrdf(values, grid, name=name)
-    return tables
 
 
 @pytest.fixture(scope="session")

@@ -1,9 +1,10 @@
-"""What the property tests draw from."""
+"""What the tests draw from: hypothesis strategies, and tables made in the test."""
 
 import numpy as np
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
+from halfway.brdf import TabularBrdf
 from halfway.halfdiff import Grid
 
 TINY = Grid.merl(3, 4, 5)
@@ -33,3 +34,14 @@ def convex_weights(n: int) -> st.SearchStrategy[np.ndarray]:
     """``n`` non-negative weights that sum to 1, zeros among them."""
     raw = hnp.arrays(np.float64, n, elements=st.floats(0, 1)).filter(lambda w: w.sum() > 0.1)
     return raw.map(lambda w: w / w.sum())
+
+
+def random_tables(n: int, grid: Grid, seed: int = 0) -> dict[str, TabularBrdf]:
+    """``n`` reproducible tables: positive where both directions are above the horizon, NaN elsewhere."""
+    rng = np.random.default_rng(seed)
+    tables = {}
+    for name in map("material-{}".format, range(n)):
+        values = rng.gamma(0.5, size=(3, *grid.shape)).astype(np.float32)
+        values[:, ~grid.mask()] = np.nan
+        tables[name] = TabularBrdf(values, grid, name=name)
+    return tables

@@ -2,11 +2,10 @@
 
 import numpy as np
 import pytest
-from conftest import random_tables
 from hypothesis import given
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
-from strategies import points
+from strategies import points, random_tables
 from test_triangulation import quietly
 
 from halfway import Pca, Route, open_library

@@ -6,9 +6,10 @@ import sys
 
 import numpy as np
 import pytest
-from conftest import random_tables
 from numpy.testing import assert_allclose
+from strategies import random_tables
 
+from halfway import TabularBrdf
 from halfway.cli import arguments, console
 from halfway.cli import main as halfway
 from halfway.errors import HalfwayError
@@ -16,6 +17,21 @@ from halfway.formats import read_merl, write_merl
 from halfway.halfdiff import Grid
 
 GRID = Grid.merl(4, 3, 5)
+COMMANDS = [
+    "demo",
+    "view",
+    "route",
+    "mix",
+    "render",
+    "report",
+    "space",
+    "check",
+    "convert",
+    "info",
+    "fetch",
+    "doctor",
+    "library",
+]
 
 
 @pytest.fixture
@@ -23,7 +39,7 @@ def run(capsys, monkeypatch, tmp_path):
     """Run a command in an empty folder; gives (exit code, stdout, stderr)."""
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(console, "cache_folder", lambda: tmp_path / "cache")
-    for module in ("route", "report"):
+    for module in ("route", "report", "mix", "space", "render"):
         monkeypatch.setattr(f"halfway.cli.{module}.cache_folder", lambda: tmp_path / "cache")
 
     def run(*words):
@@ -63,9 +79,7 @@ def test_importing_the_package_loads_nothing_heavy():
     subprocess.run([sys.executable, "-c", script], check=True)
 
 
-@pytest.mark.parametrize(
-    "command", ["demo", "report", "route", "mix", "render", "library build", "library info"]
-)
+@pytest.mark.parametrize("command", COMMANDS)
 def test_every_command_explains_itself(run, command):
     code, out, _ = run(*command.split(), "--help")
     assert code == 0
@@ -121,6 +135,8 @@ def test_route_prints_json_alone_on_stdout(run, lib, tmp_path):
         "0,0.5,1",
         "--space",
         "linear",
+        "--pace",
+        "uniform",
         "--json",
     )
     document = json.loads(out)
@@ -142,11 +158,62 @@ def test_mix_by_weights_by_recipe_file_and_by_place_on_a_route(run, lib, tmp_pat
         json.dumps({"weights": {"material-0": 0.5, "material-1": 0.5}})
     )
     assert run("mix", lib, "recipe.json", "-o", "b.binary")[0] == 0
-    run("route", lib, "material-0", "material-1", "-n", "3", "--space", "linear", "-o", "r")
+    run(
+        "route",
+        lib,
+        "material-0",
+        "material-1",
+        "-n",
+        "3",
+        "--space",
+        "linear",
+        "--pace",
+        "uniform",
+        "-o",
+        "r",
+    )
     assert run("mix", lib, "r/recipes.json:1", "-o", "c.binary")[0] == 0
     a, b, c = (read_merl(tmp_path / f"{name}.binary").values for name in "abc")
     assert_allclose(b, a, rtol=1e-6)
     assert_allclose(c, a, rtol=1e-6)
+
+
+def test_a_route_is_anchored_and_paced_unless_asked_otherwise(run, lib):
+    document = json.loads(run("route", lib, "material-0", "material-4", "-n", "3", "--json")[1])
+    assert (document["space"], document["pace"]) == ("anchored", "perceptual")
+
+
+def test_places_neighbours_and_free_points(run, lib, tmp_path):
+    places = json.loads(run("space", lib, "--json")[1])
+    assert places["coordinates"][-3:] == ["body_r", "body_g", "body_b"]
+    assert len(run("space", lib, "--near", "material-2", "-n", "3")[1].splitlines()) == 3
+    point = ",".join(map(str, places["points"]["material-2"]))
+    assert run("mix", lib, f"--point={point}", "-o", "there.binary")[0] == 0
+    there, own = (read_merl(tmp_path / f) for f in ("there.binary", "measured/material-2.binary"))
+    assert_allclose(there.values, own.values, rtol=1e-4)
+    code, _, talk = run("mix", lib, "--point=1e9,0,0,0,0,0", "-o", "far.binary")
+    assert (code, "--clamp takes it" in talk) == (1, True)
+    assert run("mix", lib, "--point=1e9,0,0,0,0,0", "--clamp", "-o", "far.binary")[0] == 0
+
+
+def test_check_tells_sound_from_broken_and_repair_mends(run, tmp_path):
+    wrong = np.full((3, *GRID.shape), 5.0, np.float32)
+    write_merl(tmp_path / "wrong.binary", TabularBrdf(wrong, GRID, name="wrong"))
+    code, out, _ = run("check", "wrong.binary")
+    assert (code, "BROKEN  wrong.binary: reflects" in out) == (1, True)
+    (card,) = json.loads(run("check", "wrong.binary", "--json")[1])
+    assert (card["file"], card["ok"], card["format"]) == ("wrong.binary", False, 1)
+    assert run("check", "wrong.binary", "--repair", "-o", "mended.binary")[0] == 0
+    assert run("check", "mended.binary")[0] == 0
+
+
+def test_convert_and_info(run, lib, tmp_path):
+    assert run("convert", f"{lib}:material-1", "one.binary")[0] == 0
+    assert (tmp_path / "one.binary").read_bytes() == (
+        tmp_path / "measured" / "material-1.binary"
+    ).read_bytes()
+    assert "one: TabularBrdf, grid 4 x 3 x 5, albedo" in run("info", "one.binary")[1]
+    assert "names no format" in run("convert", "one.binary", "one.exr")[2]
 
 
 def test_report_prints_table_1_and_writes_figures(run, lib, tmp_path):

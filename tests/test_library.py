@@ -4,9 +4,8 @@ import json
 
 import numpy as np
 import pytest
-from conftest import random_tables
 from numpy.testing import assert_allclose
-from strategies import TINY
+from strategies import TINY, random_tables
 
 from halfway import Recipe, build_library, mix, open_library
 from halfway.errors import LibraryError, OutputError

@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
-from conftest import random_tables
 from numpy.testing import assert_allclose
 from sklearn.decomposition import PCA
+from strategies import random_tables
 
 from halfway import Pca, TabularBrdf, open_library
 from halfway.errors import LibraryError

@@ -92,7 +92,7 @@ def test_the_papers_space_in_two_to_six_dimensions(small_library, pca, k):
 
 
 def test_two_materials_are_a_space(small_library):
-    from conftest import random_tables
+    from strategies import random_tables
 
     from halfway.errors import DegenerateSpaceWarning
     from halfway.library import ProceduralLibrary

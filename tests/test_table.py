@@ -2,12 +2,11 @@
 
 import numpy as np
 import pytest
-from conftest import random_tables
 from hypothesis import given
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 from scipy.interpolate import RegularGridInterpolator
-from strategies import TINY, directions
+from strategies import TINY, directions, random_tables
 
 from halfway import MERL, TabularBrdf, directional_albedo, open_library, tabulate
 from halfway.errors import FormatError

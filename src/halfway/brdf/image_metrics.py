@@ -21,6 +21,7 @@ import numpy as np
 from jaxtyping import Float
 
 from ..errors import HalfwayError
+from .ciede2000_kernel import differences
 
 SHOULDER = 0.75
 """Linear value above which highlights are compressed."""
@@ -76,28 +77,12 @@ def ciede2000_difference(a: Lab, b: Lab) -> Means:
 
 
 def ciede2000(a: Lab, b: Lab) -> Float[np.ndarray, "... n_pixels"]:
-    """Delta E_00 of each pixel, with kL = kC = kH = 1 (Sharma et al. 2005, equations 2 to 22).
-
-    Hues are handled as unit vectors and half angles, where the published formula distinguishes cases: the difference of
-    hues ``2 sqrt(C1 C2) sin(dh/2)`` is ``(a1 b2 - a2 b1) / sqrt((C1 C2 + a1 a2 + b1 b2) / 2)``, and the mean hue points
-    along the sum of the unit vectors.
-    """
-    l1, a1, b1 = np.moveaxis(a, -1, 0)
-    l2, a2, b2 = np.moveaxis(b, -1, 0)
-    stretch = 1.5 - 0.5 * _saturation((np.hypot(a1, b1) + np.hypot(a2, b2)) / 2)
-    a1, a2 = stretch * a1, stretch * a2
-    c1, c2 = np.hypot(a1, b1), np.hypot(a2, b2)
-    l_mean, c_mean = (l1 + l2) / 2, (c1 + c2) / 2
-    h_mean = _mean_hue(a1, b1, c1, a2, b2, c2)
-
-    d_l, d_c, d_h = l2 - l1, c2 - c1, _hue_difference(a1, b1, a2, b2, c1 * c2)
-    s_l = 1 + 0.015 * (l_mean - 50) ** 2 / np.sqrt(20 + (l_mean - 50) ** 2)
-    s_c = 1 + 0.045 * c_mean
-    s_h = 1 + 0.015 * c_mean * _hue_weight(h_mean)
-    turn = np.radians(60) * np.exp(-(((np.degrees(h_mean) - 275) / 25) ** 2))
-    r_t = -2 * _saturation(c_mean) * np.sin(turn)
-    light, chroma, hue = d_l / s_l, d_c / s_c, d_h / s_h
-    return np.sqrt(np.maximum(light**2 + chroma**2 + hue**2 + r_t * chroma * hue, 0))
+    """Delta E_00 of each pixel, with kL = kC = kH = 1; the formula is in `ciede2000_kernel`."""
+    a, b = np.broadcast_arrays(a, b)
+    out = np.empty(a.shape[:-1])
+    first, second = (np.ascontiguousarray(x).reshape(-1, 3) for x in (a, b))
+    differences(first, second, out.reshape(-1))
+    return out
 
 
 def flip(a: Float[np.ndarray, "height width 3"], b: Float[np.ndarray, "height width 3"]) -> float:
@@ -116,43 +101,6 @@ def flip(a: Float[np.ndarray, "height width 3"], b: Float[np.ndarray, "height wi
         ) from None
     pictures = (np.ascontiguousarray(_encoded(shown(x)), np.float32) for x in (a, b))
     return float(evaluate(*pictures, "LDR", applyMagma=False)[1])
-
-
-def _saturation(chroma: np.ndarray) -> np.ndarray:
-    power = chroma**7
-    return np.sqrt(power / (power + 25**7))
-
-
-def _mean_hue(
-    a1: np.ndarray, b1: np.ndarray, c1: np.ndarray, a2: np.ndarray, b2: np.ndarray, c2: np.ndarray
-) -> np.ndarray:
-    """The hue between two, the short way round, in [0, 2 pi); where one has no hue, the other's."""
-    # Without a chroma the formula takes 0 for that hue and adds: the vector drops out and the other remains.
-    safe1, safe2 = (np.where(c == 0, 1, c) for c in (c1, c2))
-    x, y = a1 / safe1 + a2 / safe2, b1 / safe1 + b2 / safe2
-    return np.arctan2(y, x) % (2 * np.pi)
-
-
-def _hue_difference(
-    a1: np.ndarray, b1: np.ndarray, a2: np.ndarray, b2: np.ndarray, product: np.ndarray
-) -> np.ndarray:
-    along = a1 * a2 + b1 * b2
-    # Through differences of near values: float32 keeps its digits where two pictures hardly differ.
-    across = a1 * (b2 - b1) - b1 * (a2 - a1)
-    near = along > 0
-    small = np.abs(across) / np.sqrt(np.where(near, product + along, 1) * 2)
-    large = np.sqrt(np.where(near, 0, product - along) / 2)
-    return 2 * np.copysign(np.where(near, small, large), across)
-
-
-def _hue_weight(hue: np.ndarray) -> np.ndarray:
-    return (
-        1
-        - 0.17 * np.cos(hue - np.radians(30))
-        + 0.24 * np.cos(2 * hue)
-        + 0.32 * np.cos(3 * hue + np.radians(6))
-        - 0.20 * np.cos(4 * hue - np.radians(63))
-    )
 
 
 def _encoded(rgb: np.ndarray) -> np.ndarray:

@@ -47,15 +47,18 @@ def _lengths(route: Route, images: BasisImages) -> tuple[Places, Places]:
     """The share u of its length that a route has covered at each of some t."""
     t = np.union1d(route.knots, np.linspace(0, 1, N_START))
     looks = _looks(route, images, t)
-    steps = _steps(looks)
+    steps = _apart(looks[:-1], looks[1:])
     for _ in range(N_ROUNDS):
         long = np.flatnonzero(steps > FINEST * steps.sum())
         if not len(long):
             break
         middle = (t[long] + t[long + 1]) / 2
+        between = _looks(route, images, middle)
+        second_halves = _apart(between, looks[long + 1])
+        steps[long] = _apart(looks[long], between)
+        steps = np.insert(steps, long + 1, second_halves)
         t = np.insert(t, long + 1, middle)
-        looks = np.insert(looks, long + 1, _looks(route, images, middle), axis=0)
-        steps = _steps(looks)
+        looks = np.insert(looks, long + 1, between, axis=0)
     if not steps.sum():
         return t, t
     u = np.append(0.0, np.cumsum(steps + LEAST * steps.sum()))
@@ -66,5 +69,5 @@ def _looks(route: Route, images: BasisImages, t: Places) -> Lab:
     return appearance(images.mix(route.at(t)))
 
 
-def _steps(looks: Lab) -> Places:
-    return np.asarray(ciede2000_difference(looks[1:], looks[:-1]), np.float64)
+def _apart(a: Lab, b: Lab) -> Places:
+    return np.asarray(ciede2000_difference(a, b), np.float64)

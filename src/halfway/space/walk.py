@@ -75,7 +75,9 @@ class DelaunayWalk:
         if order is None:
             raise OutsideHullError(outside_message(len(self.points)))
         vertices = _first_basis(self._lifted, order)
-        return self._scatter(vertices, np.linalg.inv(self._lifted[:, vertices]) @ target)
+        # Least squares: where the points are nearly flat there are fewer vertices than equations.
+        barycentric, *_ = np.linalg.lstsq(self._lifted[:, vertices], target)
+        return self._scatter(vertices, barycentric)
 
     def path(self, start: int, stop: int) -> Path:
         """The weights along the straight line from point ``start`` to point ``stop``, both ends exact."""
@@ -128,7 +130,7 @@ class DelaunayWalk:
 
     def _first_simplex(
         self, p: Float64[np.ndarray, " d_1"], q: Float64[np.ndarray, " d_1"]
-    ) -> Int[np.ndarray, " d_1"] | None:
+    ) -> Int[np.ndarray, "..."] | None:
         """Vertices of the simplex at p on the way to q; None where the programme fails."""
         away = self._lifted - p[:, None]
         costs = np.square(away).sum(axis=0)
@@ -147,7 +149,7 @@ class DelaunayWalk:
         return np.append((x - self._origin) @ self._basis, 1.0)
 
     def _scatter(
-        self, vertices: Int[np.ndarray, " d_1"], barycentric: Float64[np.ndarray, " d_1"]
+        self, vertices: Int[np.ndarray, " n_chosen"], barycentric: Float64[np.ndarray, " n_chosen"]
     ) -> Float64[np.ndarray, " n_points"]:
         positive = np.where(barycentric > INSIDE, barycentric, 0.0)
         weights = np.zeros(len(self.points))
@@ -172,7 +174,7 @@ def _cheapest(
 
 def _first_basis(
     lifted: Float64[np.ndarray, "d_1 n"], order: Int[np.ndarray, " n_ordered"]
-) -> Int[np.ndarray, " d_1"]:
+) -> Int[np.ndarray, " n_chosen"]:
     """The first columns in ``order`` that are linearly independent, as many as there are rows."""
     chosen: list[int] = []
     frame = np.zeros((0, len(lifted)))
