@@ -60,10 +60,11 @@ def draw(rows: dict[str, tuple[float, float]]) -> None:
         for name, place in rows.items():
             if not name.startswith("anchored"):
                 ax.plot(*place, "s", label=name)
+                continue
             ax.annotate(
                 name.removeprefix("anchored, "),
                 place,
-                xytext=(6, 4),
+                xytext=(-4, -12) if name.endswith(("1.1", "1.5")) else (6, 4),
                 textcoords="offset points",
                 fontsize=8,
             )

@@ -8,8 +8,8 @@ import typer
 from .console import cache_folder, say, track
 
 STOPS = ("light-brown-fabric", "blue-fabric")
-SIZE = 256
-SPP = 48
+SIZE = (320, 260)
+SPP = 64
 N_IN_STRIP = 7
 NEW_MATERIALS = (13, 25, 38)
 """Of 51: about a quarter, half and three quarters of the way."""
@@ -27,7 +27,7 @@ def demo(
     from halfway.export import write_report, write_route
     from halfway.formats import write_brdf
     from halfway.library import DEFAULT_LIBRARY, Pca, open_library
-    from halfway.render import Renderer, pictures
+    from halfway.render import BasisPictures, Renderer, pictures
     from halfway.space import Mixer, Route, make_space
 
     library = open_library(DEFAULT_LIBRARY)
@@ -43,15 +43,14 @@ def demo(
     for i, table in zip(NEW_MATERIALS, tables, strict=True):
         write_brdf(output / f"{i:03d}.binary", table)
 
-    renderer = Renderer("teapot", size=(SIZE, SIZE), spp=SPP)
+    basis = BasisPictures(Renderer("teapot", size=SIZE, spp=SPP), library.brdf)
     recipes = route.recipes(ts)
-    images = [
-        renderer.picture(mixer.mix(recipe)) for recipe in track(recipes, "Pictures", len(recipes))
-    ]
+    basis.render(sorted({name for recipe in recipes for name in recipe.names}), track=track)
+    images = [basis.picture(recipe.names, recipe.weights) for recipe in recipes]
     shown = [round(i * 50 / (N_IN_STRIP - 1)) for i in range(N_IN_STRIP)]
     strip = pictures.strip([images[i] for i in shown], labels=[f"t = {ts[i]:.2f}" for i in shown])
     pictures.write(output / "strip.png", strip)
-    pictures.animate(output / "route.webp", images, fps=12)
+    pictures.animate(output / "route.webp", images, fps=12.0)
     say(f"""
 {output}/
   strip.png          teapots from {STOPS[0]} to {STOPS[1]}
@@ -61,6 +60,7 @@ def demo(
   report/            eigenvalues and triangulation of the library
 
 Try next:
+  halfway view
   halfway render {output}/025.binary -o middle.png --size 768
   halfway route cherry-235 tungsten-carbide -o metal --format merl
   halfway library build FOLDER-OF-MERL-FILES -o mine.brdflib""")
