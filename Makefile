@@ -37,7 +37,7 @@ test: lint viewer chromium ## every check
 	$(PYTEST)
 
 bench: setup    ## speed, as ratios measured in one run
-	$(RUN) pytest benchmarks -s --benchmark-only --benchmark-columns=median,rounds -o python_files='bench_*.py' -o python_functions='bench_*' -o addopts=''
+	$(RUN) pytest benchmarks -s --benchmark-only --benchmark-columns=median,rounds -o python_files='bench_*.py' -o python_functions='bench_* test_*' -o addopts=''
 
 pictures: setup ## regenerate the pictures of the README
 	$(RUN) python docs/pictures.py

@@ -18,7 +18,8 @@ from halfway.space import Mixer
 
 FIT = """
 import json, resource, sys, time
-from halfway.library import StoredLibrary, Pca
+from pathlib import Path
+from halfway.library import Pca, StoredLibrary
 library = StoredLibrary(Path(sys.argv[1]))
 peak = lambda: resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
 before, start = peak(), time.perf_counter()
