@@ -21,7 +21,6 @@ import numpy as np
 from jaxtyping import Float
 
 from ..errors import HalfwayError
-from .ciede2000_kernel import differences
 
 SHOULDER = 0.75
 """Linear value above which highlights are compressed."""
@@ -78,6 +77,8 @@ def ciede2000_difference(a: Lab, b: Lab) -> Means:
 
 def ciede2000(a: Lab, b: Lab) -> Float[np.ndarray, "... n_pixels"]:
     """Delta E_00 of each pixel, with kL = kC = kH = 1; the formula is in `ciede2000_kernel`."""
+    from .ciede2000_kernel import differences  # numba takes a second to load
+
     a, b = np.broadcast_arrays(a, b)
     out = np.empty(a.shape[:-1])
     first, second = (np.ascontiguousarray(x).reshape(-1, 3) for x in (a, b))

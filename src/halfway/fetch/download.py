@@ -119,7 +119,7 @@ def _get(
         ) from error
     except httpx.ConnectError as error:
         raise _Cut(
-            f"{_host(item.url)} cannot be reached ({error}); is this machine online, or behind a proxy that HTTPS_PROXY should name?"
+            f"{_host(item.url)} cannot be reached ({error}). Is this machine online? Behind a proxy, HTTPS_PROXY names it"
         ) from error
     except httpx.TimeoutException as error:
         raise _Cut(f"{_host(item.url)} did not answer for {timeout:g} s") from error

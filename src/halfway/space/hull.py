@@ -2,7 +2,6 @@
 
 import numpy as np
 from jaxtyping import Float64
-from scipy.optimize import nnls
 
 from .._types import Points
 
@@ -17,6 +16,8 @@ def nearest_in_hull(
 
     Reference: P. Wolfe, "Finding the Nearest Point in a Polytope", Mathematical Programming 11, 1976.
     """
+    from scipy.optimize import nnls  # a second to load
+
     towards = points - x
     scale = np.abs(towards).max(initial=0.0) or 1.0
     system = np.concatenate([towards.T / scale, np.ones((1, len(points)))])

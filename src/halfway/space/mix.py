@@ -15,7 +15,6 @@ from .._types import Table
 from ..brdf import TabularBrdf
 from ..errors import LibraryError, RecipeError
 from ..library import Library
-from .kernel import add_four
 from .recipe import Recipe
 
 ROWS_AT_ONCE = 4
@@ -74,6 +73,8 @@ def _title(recipe: Recipe) -> str:
 
 
 def _weighted_sum(out: np.ndarray, rows: list[np.ndarray], weights: np.ndarray) -> None:
+    from .kernel import add_four  # numba takes a second to load
+
     total = np.empty(len(out))
     for first in range(0, len(rows), ROWS_AT_ONCE):
         some = rows[first : first + ROWS_AT_ONCE]

@@ -18,6 +18,7 @@ Qhull runs with its default options: joggled input (QJ) always succeeds, with ga
 """
 
 import warnings
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -45,6 +46,15 @@ class Path(NamedTuple):
 
     knots: Float64[np.ndarray, " n_knots"]  # ascending from 0 to 1
     weights: Float64[np.ndarray, "n_knots n_points"]
+
+    @classmethod
+    def between(
+        cls, start: int, stop: int, n_points: int, crossings: Sequence[tuple[float, np.ndarray]]
+    ) -> "Path":
+        """The path through these places from one point to another, both of which it meets exactly."""
+        first, last = np.eye(n_points)[[start, stop]]
+        knots = np.array([0.0, *(t for t, _ in crossings), 1.0])
+        return cls(knots, np.stack([first, *(weights for _, weights in crossings), last]))
 
 
 @dataclass(frozen=True, eq=False)
@@ -94,10 +104,8 @@ class Triangulation:
 
     def path(self, start: int, stop: int) -> Path:
         """The weights along the straight line from point ``start`` to point ``stop``, both ends exact."""
-        ends = [np.eye(len(self.points))[i] for i in (start, stop)]
-        inner = self._crossings(self.points[start], self.points[stop])
-        knots = np.array([0.0, *(t for t, _ in inner), 1.0])
-        return Path(knots, np.stack([ends[0], *(weights for _, weights in inner), ends[1]]))
+        crossings = self._crossings(self.points[start], self.points[stop])
+        return Path.between(start, stop, len(self.points), crossings)
 
     def _crossings(
         self, p: Float64[np.ndarray, " k"], q: Float64[np.ndarray, " k"]

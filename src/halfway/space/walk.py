@@ -81,10 +81,8 @@ class DelaunayWalk:
 
     def path(self, start: int, stop: int) -> Path:
         """The weights along the straight line from point ``start`` to point ``stop``, both ends exact."""
-        ends = [np.eye(len(self.points))[i] for i in (start, stop)]
-        inner = self._crossings(self._flat(self.points[start]), self._flat(self.points[stop]))
-        knots = np.array([0.0, *(t for t, _ in inner), 1.0])
-        return Path(knots, np.stack([ends[0], *(weights for _, weights in inner), ends[1]]))
+        crossings = self._crossings(self._flat(self.points[start]), self._flat(self.points[stop]))
+        return Path.between(start, stop, len(self.points), crossings)
 
     def _crossings(
         self, p: Float64[np.ndarray, " d_1"], q: Float64[np.ndarray, " d_1"]
