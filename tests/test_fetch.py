@@ -267,7 +267,7 @@ def test_without_a_network_one_line_says_so(tmp_path):
     with serving(good) as server:
         url = server.url
     with pytest.raises(
-        FetchError, match=r"127\.0\.0\.1 cannot be reached .*is this machine online"
+        FetchError, match=r"127\.0\.0\.1 cannot be reached .*Is this machine online"
     ):
         get(None, tmp_path, url=f"{url}/{NAME}", n_tries=2)
 
