@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
 from halfway.brdf import TabularBrdf, directional_albedo, tabulate
+from halfway.brdf.sphere import N_SKY_NODES, Light, Sky
 from halfway.halfdiff import Grid
 from halfway.library import (
     JUDGING_SCENE,
@@ -19,7 +20,6 @@ from halfway.library import (
     ProceduralLibrary,
     SphereOperator,
 )
-from halfway.library.basis_scene import N_SKY_NODES, Light, Sky
 from halfway.models import AbcModel
 
 GRID = Grid.merl(20, 12, 24)

@@ -1,8 +1,8 @@
 """Libraries: sets of materials on one grid, and their principal components."""
 
+from ..brdf.sphere import JUDGING_SCENE, PACING_SCENE, BasisScene, SphereOperator
 from .basis import BasisImages
 from .basis_samples import BasisSamples
-from .basis_scene import JUDGING_SCENE, PACING_SCENE, BasisScene, SphereOperator
 from .library import Library, Origin
 from .opening import DEFAULT_LIBRARY, open_library
 from .pca import Pca

@@ -14,8 +14,8 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Float, Float32
 
+from ..brdf.sphere import PACING_SCENE, BasisScene, SphereOperator
 from ..tasks import Track, run, silent
-from .basis_scene import PACING_SCENE, BasisScene, SphereOperator
 from .cache import cached
 from .library import Library
 

@@ -23,8 +23,8 @@ import numpy as np
 from jaxtyping import Float, Float32, Float64, Int
 
 from .._types import Directions, Mask
-from ..brdf import hemisphere
 from ..halfdiff import Grid
+from .albedo import hemisphere
 
 Angles = Float64[np.ndarray, "..."]
 Indices = Int[np.ndarray, "..."]
