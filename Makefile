@@ -6,7 +6,7 @@ RUN := $(UV) run --frozen
 PYTEST := $(RUN) pytest -n 2
 
 .DEFAULT_GOAL := help
-.PHONY: help setup demo test lint viewer chromium bench pictures
+.PHONY: help setup demo test lint viewer chromium bench pictures docs
 
 help:           ## this list
 	@grep -hE '^[a-z-]+: .*##|^[a-z-]+:  *##' $(MAKEFILE_LIST) | sed -E 's/:.*## */\t/' | expand -t 14
@@ -35,6 +35,9 @@ chromium: setup # for the browser tests: the system's, or Playwright's own
 
 test: lint viewer chromium ## every check
 	$(PYTEST)
+
+docs: setup     ## the site, in docs/_build/html; every warning is an error
+	$(RUN) sphinx-build -E -W --keep-going -q -b html docs docs/_build/html
 
 bench: setup    ## speed, as ratios measured in one run
 	$(RUN) pytest benchmarks -s --benchmark-only --benchmark-columns=median,rounds -o python_files='bench_*.py' -o python_functions='bench_* test_*' -o addopts=''
