@@ -117,7 +117,7 @@ class Explorer:
         ]
 
     def set_t(self, t: float) -> None:
-        self.page.locator("#t").fill(str(t))
+        self.page.locator("[name=t]").fill(str(t))
 
 
 @pytest.fixture

@@ -54,14 +54,14 @@ def test_the_search_sets_a_stop_and_undo_takes_it_back(explorer: Explorer) -> No
 
 def test_a_search_without_a_match_says_so(explorer: Explorer) -> None:
     explorer.open(PAIR)
-    explorer.page.locator("#search").fill("unobtainium")
-    assert explorer.page.locator("#results").inner_text() == "No material of this name"
+    explorer.page.locator("[name=search]").fill("unobtainium")
+    assert explorer.page.locator(".results").inner_text() == "No material of this name"
 
 
 def test_stops_are_added_and_removed(explorer: Explorer) -> None:
     explorer.open(PAIR)
     explorer.page.get_by_label("Add a stop").click()
-    explorer.page.locator("#search").fill("teflon")
+    explorer.page.locator("[name=search]").fill("teflon")
     explorer.page.keyboard.press("Enter")
     assert explorer.stops == ["cherry-235", "gold-paint", "teflon"]
     explorer.page.get_by_label("Remove gold-paint").click()
@@ -71,7 +71,7 @@ def test_stops_are_added_and_removed(explorer: Explorer) -> None:
 def test_a_click_in_the_space_sets_a_stop(explorer: Explorer) -> None:
     explorer.open(PAIR)
     explorer.page.wait_for_selector(".here")
-    box = explorer.page.locator("#space-view").bounding_box()
+    box = explorer.page.locator(".cloud").bounding_box()
     assert box is not None
     for x, y in (
         (x, y) for y in range(60, int(box["height"]), 9) for x in range(10, int(box["width"]), 9)
@@ -125,14 +125,14 @@ def test_two_spaces_are_compared_in_one_picture(explorer: Explorer) -> None:
     explorer.open("#space=linear&stops=teflon,chrome&t=0.4&light=points")
     explorer.wait_until_settled()
     alone = picture(explorer)
-    explorer.page.locator("#compare").select_option("paper")
+    explorer.page.locator("[name=compare]").select_option("paper")
     explorer.page.wait_for_function(
-        "p => document.querySelector('#material').toDataURL() !== p", arg=alone
+        "p => document.querySelector('.live').toDataURL() !== p", arg=alone
     )
     assert explorer.page.locator(".split").inner_text().split() == ["linear", "paper"]
-    explorer.page.locator("#compare").select_option("")
+    explorer.page.locator("[name=compare]").select_option("")
     explorer.page.wait_for_function(
-        "p => document.querySelector('#material').toDataURL() === p", arg=alone
+        "p => document.querySelector('.live').toDataURL() === p", arg=alone
     )
 
 
@@ -170,7 +170,7 @@ def test_an_environment_is_chosen(explorer: Explorer) -> None:
     explorer.page.set_viewport_size({"width": 460, "height": 560})
     explorer.open(PAIR + "&t=0&light=points")
     explorer.wait_for_picture(16)
-    explorer.page.locator("#light").select_option("forest")
+    explorer.page.locator("[name=light]").select_option("forest")
     explorer.page.wait_for_function(
         "() => document.querySelector('.material .note').innerText.endsWith('/ 192 samples')"
     )
@@ -191,10 +191,10 @@ def test_it_plays(explorer: Explorer) -> None:
 def test_the_theme_changes_and_stays(explorer: Explorer) -> None:
     explorer.open(PAIR)
     explorer.page.get_by_label("Dark or light").click()
-    assert explorer.page.locator("html").get_attribute("data-theme") == "light"
+    assert explorer.page.locator("#app").get_attribute("data-theme") == "light"
     explorer.page.reload()
     explorer.page.wait_for_selector("#app.ready")
-    assert explorer.page.locator("html").get_attribute("data-theme") == "light"
+    assert explorer.page.locator("#app").get_attribute("data-theme") == "light"
 
 
 @pytest.mark.parametrize("width", [800, 1440, 2560])
@@ -216,7 +216,7 @@ def test_a_server_that_went_away_is_said(explorer: Explorer) -> None:
     explorer.page.wait_for_selector(".recipe .name")
     explorer.expected = "Failed to load resource"  # the browser's own words
     explorer.page.route("**/api/route*", lambda route: route.abort())
-    explorer.page.locator("#space").select_option("paper")
+    explorer.page.locator("[name=space]").select_option("paper")
     explorer.page.wait_for_selector(".problem:not([hidden])")
     assert "halfway view" in explorer.page.locator(".problem").inner_text()
 
@@ -232,10 +232,10 @@ def test_without_webgl_a_small_picture_stands_in(browser: Browser, address: str)
     page.goto(address + PAIR)
     page.wait_for_selector(".material[data-ready=still]")
     assert "stands in" in page.locator(".material .reason").inner_text()
-    page.locator("#t").fill("0.9")
+    page.locator("[name=t]").fill("0.9")
     assert page.locator(".recipe .share").all_text_contents() == ["90 %", "10 %"]
     context.close()
 
 
 def picture(explorer: Explorer) -> str:
-    return explorer.page.evaluate("document.querySelector('#material').toDataURL()")
+    return explorer.page.evaluate("document.querySelector('.live').toDataURL()")

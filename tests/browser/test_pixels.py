@@ -47,7 +47,7 @@ def picture(explorer: Explorer) -> Picture:
     # From the drawing buffer, not a screenshot: neither scaled nor composited.
     width, height, data = explorer.page.evaluate(
         """() => {
-          const canvas = document.querySelector("#material");
+          const canvas = document.querySelector(".live");
           const copy = new OffscreenCanvas(canvas.width, canvas.height).getContext("2d");
           copy.drawImage(canvas, 0, 0);
           const { data } = copy.getImageData(0, 0, canvas.width, canvas.height);

@@ -88,9 +88,9 @@ export function onResize(
   }).observe(element);
 }
 
-/** A custom property of the style sheet. */
-export function style(name: string): string {
-  return getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+/** A custom property of the style sheet, as it holds inside `root`. */
+export function style(root: HTMLElement, name: string): string {
+  return getComputedStyle(root).getPropertyValue(name).trim();
 }
 
 export function download(blob: Blob, name: string): void {

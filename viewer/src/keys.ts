@@ -1,17 +1,17 @@
 // The keyboard: / searches, space plays, arrows move t, the rest is in the table.
 
-import type { Context } from "./main";
+import type { Context } from "./context";
 
 const STEP = 0.01;
 
-export function listenToKeys({ store, actions }: Context): void {
-  document.addEventListener("keydown", (event) => {
-    const target = event.target as HTMLElement;
+export function listenToKeys({ root, options, store, actions, signal }: Context): void {
+  const listen = (event: KeyboardEvent) => {
+    const target = event.composedPath()[0] as HTMLElement;
     if (target.matches("input:not([type=range]), select")) return;
     const command = event.ctrlKey || event.metaKey;
     if (command && event.key.toLowerCase() === "z") (event.shiftKey ? actions.redo : actions.undo)();
     else if (command || event.altKey) return;
-    else if (event.key === "/") document.querySelector<HTMLInputElement>("#search")?.focus();
+    else if (event.key === "/") root.querySelector<HTMLInputElement>("[name=search]")?.focus();
     else if (event.key === " " && !target.matches("button")) store.set({ playing: !store.get().playing });
     else if (event.key === "ArrowRight" && !target.matches("input"))
       actions.setT(store.get().t + step(event));
@@ -20,7 +20,8 @@ export function listenToKeys({ store, actions }: Context): void {
     else if (event.key === "End" && !target.matches("input")) actions.setT(1);
     else return;
     event.preventDefault();
-  });
+  };
+  (options.keys ?? root).addEventListener("keydown", listen as EventListener, { signal });
 }
 
 function step(event: KeyboardEvent): number {

@@ -25,6 +25,8 @@ export interface State {
   readonly exposure: number;
   readonly orbit: Orbit;
   readonly theme: Theme;
+  /** What the theme comes to here and now. */
+  readonly scheme: "light" | "dark";
   /** The material under the pointer, anywhere on the page. */
   readonly hovered: string | null;
   /** Materials whose names match what is searched; null when nothing is. */
@@ -42,6 +44,8 @@ export interface State {
   readonly otherRecipe: readonly Ingredient[];
   /** Where the present material ends and the other begins, from left to right in [0, 1]. */
   readonly split: number;
+  /** How many tables have come: who draws from them watches it. */
+  readonly arrived: number;
   readonly problem: string | null;
   readonly past: readonly Way[];
   readonly future: readonly Way[];
@@ -78,6 +82,7 @@ export function createState(library: LibrarySummary, linked: Partial<Linked>, th
     goal: null,
     playing: false,
     theme,
+    scheme: "dark",
     hovered: null,
     found: null,
     view: null,
@@ -87,6 +92,7 @@ export function createState(library: LibrarySummary, linked: Partial<Linked>, th
     otherRoute: null,
     otherRecipe: [],
     split: 0.5,
+    arrived: 0,
     problem: null,
     past: [],
     future: [],

@@ -3,8 +3,8 @@
 import type { Direction } from "../brdf/halfdiff";
 import { evaluate, type Rgb, sample, type Table } from "../brdf/table";
 import { toByte } from "../colour";
+import type { Context } from "../context";
 import { el, onResize, segments, style } from "../dom";
-import type { Context } from "../main";
 import type { Ingredient } from "../recipe";
 
 type View = "lobes" | "slice";
@@ -70,8 +70,7 @@ export function brdfPanel({ store, tables }: Context): HTMLElement {
     update();
   });
   store.watch(({ recipe }) => recipe, update);
-  document.addEventListener("tablechange", update);
-  document.addEventListener("themechange", update);
+  store.watch(({ arrived, scheme }) => [arrived, scheme], update);
   update();
   return el(
     "section.panel.brdf",
@@ -131,9 +130,9 @@ function drawLobes(
   const scale = reach / radius(largest);
   const [x0, y0] = [width / 2, height - 18];
   drawRings(context, x0, y0, reach, scale, largest);
-  const colours = ["--red", "--green", "--blue"].map(style);
+  const colours = ["--red", "--green", "--blue"].map((name) => style(context.canvas, name));
   context.globalCompositeOperation =
-    document.documentElement.dataset.theme === "light" ? "multiply" : "screen";
+    context.canvas.closest<HTMLElement>("[data-theme]")?.dataset.theme === "light" ? "multiply" : "screen";
   for (let c = 0; c < 3; c++) {
     context.beginPath();
     lobes.forEach((rgb, i) => {
@@ -159,8 +158,8 @@ function drawRings(
   scale: number,
   largest: number,
 ): void {
-  context.strokeStyle = style("--line");
-  context.fillStyle = style("--quiet");
+  context.strokeStyle = style(context.canvas, "--line");
+  context.fillStyle = style(context.canvas, "--quiet");
   context.lineWidth = 1;
   context.font = "10.5px system-ui, sans-serif";
   context.textAlign = "center";
@@ -198,7 +197,7 @@ function drawRay(
   theta: number,
 ): void {
   const [x, y] = [x0 + reach * Math.sin(theta), y0 - reach * Math.cos(theta)];
-  context.strokeStyle = context.fillStyle = style("--accent");
+  context.strokeStyle = context.fillStyle = style(context.canvas, "--accent");
   context.setLineDash([3, 3]);
   context.beginPath();
   context.moveTo(x, y);
@@ -240,7 +239,7 @@ function drawSlice(
   context.imageSmoothingEnabled = false;
   context.drawImage(cell, x0, 2, side, side);
   context.imageSmoothingEnabled = true;
-  context.fillStyle = style("--quiet");
+  context.fillStyle = style(context.canvas, "--quiet");
   context.font = "10.5px system-ui, sans-serif";
   context.textAlign = "center";
   context.fillText("θₕ  0 to 90° (square root)", width / 2, side + 16);

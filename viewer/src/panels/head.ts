@@ -1,11 +1,11 @@
 // The head: the library, the search, the space, undo, theme and link.
 
+import type { Context } from "../context";
 import { el, icon, iconButton } from "../dom";
-import type { Context } from "../main";
 import type { Theme } from "../state";
 
 export function head(context: Context): HTMLElement {
-  const { store, actions } = context;
+  const { store, actions, options } = context;
   const { library } = store.get();
   const undo = iconButton("undo", "Undo (Ctrl+Z)", actions.undo);
   const redo = iconButton("redo", "Redo (Ctrl+Shift+Z)", actions.redo);
@@ -39,7 +39,7 @@ export function head(context: Context): HTMLElement {
         library.paces.map((name) => [name, ""] as const),
         actions.setPace,
       ),
-    el("div.group", {}, {}, undo, redo, themeButton(context), linkButton()),
+    el("div.group", {}, {}, undo, redo, themeButton(context), options.address && linkButton(options.address)),
   );
 }
 
@@ -52,7 +52,7 @@ function choice(
 ): HTMLElement {
   const select = el(
     "select.field",
-    { id: key },
+    { name: key },
     { onchange: () => choose(select.value) },
     ...options.map(([name, text]) => el("option", { value: name, title: text }, {}, name)),
   );
@@ -69,13 +69,13 @@ function choice(
 function themeButton({ store }: Context): HTMLElement {
   const next: Record<string, Theme> = { light: "dark", dark: "light" };
   return iconButton("theme", "Dark or light", () => {
-    store.set({ theme: next[document.documentElement.dataset.theme ?? "dark"]! });
+    store.set({ theme: next[store.get().scheme]! });
   });
 }
 
-function linkButton(): HTMLElement {
+function linkButton(address: () => string): HTMLElement {
   const button = iconButton("link", "Copy a link to this view", () => {
-    navigator.clipboard.writeText(location.href).then(
+    navigator.clipboard.writeText(address()).then(
       () => flash("Copied"),
       () => flash("The address bar has the link"),
     );
@@ -93,20 +93,22 @@ function linkButton(): HTMLElement {
 
 function search({ store, actions, thumbnails }: Context): HTMLElement {
   const names = store.get().library.materials.map(({ name }) => name);
+  // Another explorer of the same document has another list.
+  const id = `results-${Math.random().toString(36).slice(2)}`;
   let matches: readonly string[] = [];
   let selected = 0;
-  const list = el("ul.results", { id: "results", role: "listbox", hidden: true });
+  const list = el("ul.results", { id, role: "listbox", hidden: true });
   const input = el(
     "input.field",
     {
-      id: "search",
+      name: "search",
       type: "search",
       placeholder: `Search ${names.length} materials`,
       autocomplete: "off",
       spellcheck: "false",
       role: "combobox",
       "aria-label": "Search materials",
-      "aria-controls": "results",
+      "aria-controls": id,
       "aria-expanded": "false",
     },
     {

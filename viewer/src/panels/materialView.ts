@@ -1,7 +1,7 @@
 // The material: a live picture of the exact mixed table.
 
+import type { Context } from "../context";
 import { el, iconButton, onResize, segments } from "../dom";
-import type { Context } from "../main";
 import { type Environment, toEnvironment } from "../render/environment";
 import { LIGHTS, type Light, loadPicture } from "../render/environments";
 import { Loop } from "../render/loop";
@@ -14,8 +14,7 @@ import { splitHandle } from "./split";
 
 export function materialView(context: Context): HTMLElement {
   const { store } = context;
-  const canvas = el("canvas.view", {
-    id: "material",
+  const canvas = el("canvas.view.live", {
     tabindex: 0,
     role: "img",
     "aria-label": "The material on an object; drag to turn it",
@@ -64,9 +63,10 @@ function paint(
   note: HTMLElement,
   progress: HTMLElement,
 ): void {
-  const { store, tables } = context;
+  const { store, tables, signal } = context;
   const { library } = store.get();
   const painter = new Painter(canvas, tables, library.lights);
+  signal.addEventListener("abort", () => painter.dispose());
   // A slow card, or none, draws fewer pixels while something moves, and all of them when nothing does.
   let quality = 1;
   let refined = true;
@@ -194,7 +194,7 @@ function paint(
   );
   tables.onChange = (problem) => {
     if (problem) store.set({ problem });
-    document.dispatchEvent(new Event("tablechange"));
+    store.set({ arrived: store.get().arrived + 1 });
     loop.goOn();
   };
   orbitOnDrag(context, canvas);
@@ -213,7 +213,7 @@ const TITLES: Partial<Record<Light, string>> = { points: "three lights" };
 function lightChoice({ store }: Context): HTMLElement {
   const select = el(
     "select.field",
-    { id: "light", "aria-label": "Light" },
+    { name: "light", "aria-label": "Light" },
     { onchange: () => store.set({ light: select.value as Light }) },
     ...LIGHTS.map((light) => el("option", { value: light }, {}, TITLES[light] ?? light)),
   );

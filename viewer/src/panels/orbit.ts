@@ -1,6 +1,6 @@
 // Turning the object: drag, and the wheel for the distance.
 
-import type { Context } from "../main";
+import type { Context } from "../context";
 
 export function orbitOnDrag({ store }: Context, canvas: HTMLCanvasElement): void {
   let from: { x: number; y: number } | null = null;

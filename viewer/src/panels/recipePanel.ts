@@ -1,9 +1,8 @@
 // The recipe: what the material is made of, and taking it home.
 
-import * as api from "../api/client";
 import { fromHex, toHex } from "../colour";
+import type { Context } from "../context";
 import { download, el } from "../dom";
-import type { Context } from "../main";
 import { pointOf, withCoordinates } from "../place";
 import { CHANNELS, type Ingredient, meanWeight, toDocument } from "../recipe";
 
@@ -75,7 +74,7 @@ function adjustment({ store, actions }: Context): HTMLElement {
       label.hidden = !has;
       back.hidden = place === null;
       note.textContent = place === null || place.inside ? "" : "no mix is just there: this is the nearest";
-      if (view && has && recipe.length && document.activeElement !== input) {
+      if (view && has && recipe.length && !input.matches(":focus")) {
         const body = pointOf(view, names, recipe).slice(-3);
         input.value = toHex(body.map((x) => x * Math.PI));
       }
@@ -124,7 +123,7 @@ const FORMATS: Readonly<Record<string, { text: string; suffix: string; title: st
   bsdf: { text: ".bsdf", suffix: "bsdf", title: "For Mitsuba's `measured` material; takes some seconds" },
 };
 
-function exports({ store }: Context): HTMLElement {
+function exports({ root, client, store }: Context): HTMLElement {
   const recipe = () => toDocument(store.get().library.name, store.get().recipe);
   const title = () => {
     const { stops, t, place } = store.get();
@@ -141,7 +140,7 @@ function exports({ store }: Context): HTMLElement {
           button.disabled = true;
           const name = `${title()}.${suffix}`;
           try {
-            download(await api.exported(format, recipe()), name);
+            download(await client.exported(format, recipe()), name);
           } catch (error) {
             store.set({ problem: (error as Error).message });
           }
@@ -168,7 +167,7 @@ function exports({ store }: Context): HTMLElement {
     { type: "button", title: "The picture, with a transparent background" },
     {
       onclick: () => {
-        const canvas = document.querySelector<HTMLCanvasElement>("#material");
+        const canvas = root.querySelector<HTMLCanvasElement>(".live");
         canvas?.toBlob((blob) => blob && download(blob, `${title()}.png`));
       },
     },

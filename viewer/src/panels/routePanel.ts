@@ -1,7 +1,7 @@
 // The route: stops as chips, and a strip of small pictures that is the slider for t.
 
+import type { Context } from "../context";
 import { el, icon, iconButton } from "../dom";
-import type { Context } from "../main";
 import { strip } from "./strip";
 
 export function routePanel(context: Context): HTMLElement {
@@ -150,7 +150,7 @@ function compareChoice({ store }: Context): HTMLElement {
   const { library } = store.get();
   const select = el(
     "select.field",
-    { id: "compare" },
+    { name: "compare" },
     { onchange: () => store.set({ compare: select.value }) },
     el("option", { value: "" }, {}, "nothing"),
     ...library.spaces.map(({ name, text }) => el("option", { value: name, title: text }, {}, name)),

@@ -1,9 +1,8 @@
 // The space: where each material is, what is between them, and the route.
 
 import type { Vector3 } from "three";
-
+import type { Context } from "../context";
 import { el, onResize, segments, style } from "../dom";
-import type { Context } from "../main";
 import { hasPlaces, pointOf, withCoordinates } from "../place";
 import { recipeAt, weightIn } from "../recipe";
 import { Appearance } from "../render/appearance";
@@ -20,11 +19,10 @@ const MARKER = 11;
 const STILL = 4;
 
 export function spaceView(context: Context): HTMLElement {
-  const { store, actions, thumbnails } = context;
+  const { root, store, actions, thumbnails, signal } = context;
   const names = store.get().library.materials.map(({ name }) => name);
   const indices = new Map(names.map((name, i) => [name, i]));
-  const canvas = el("canvas.view", {
-    id: "space-view",
+  const canvas = el("canvas.view.cloud", {
     tabindex: 0,
     role: "img",
     "aria-label": "The materials as points; the search reaches them all",
@@ -45,6 +43,7 @@ export function spaceView(context: Context): HTMLElement {
   let cloud: Cloud;
   try {
     cloud = new Cloud(canvas, names, thumbnails, () => draw());
+    signal.addEventListener("abort", () => cloud.dispose());
   } catch {
     canvas.hidden = true;
     panel.append(
@@ -110,7 +109,7 @@ export function spaceView(context: Context): HTMLElement {
     draw();
   };
   const paint = () => {
-    cloud.setColours(style("--line"), style("--text"), style("--accent"), style("--panel"));
+    cloud.setColours(style(root, "--text"), style(root, "--accent"), style(root, "--panel"));
     draw();
   };
 
@@ -191,8 +190,7 @@ export function spaceView(context: Context): HTMLElement {
     cloud.draw();
     placeLabels();
   });
-  document.addEventListener("themechange", paint);
-  paint();
+  store.watch(({ scheme }) => scheme, paint);
   store.watch(({ view }) => view, offer);
   store.watch(({ route }) => route, traceRoute);
   store.watch(({ recipe }) => recipe, place);

@@ -1,7 +1,7 @@
 // The line between two materials in one picture: this space's to the left, the compared one's to the right.
 
+import type { Context } from "../context";
 import { el } from "../dom";
-import type { Context } from "../main";
 
 const STEP = 0.02;
 

@@ -2,21 +2,21 @@
 // space that is compared.
 
 import type { RouteView } from "../api/schema";
+import type { Context } from "../context";
 import { el, onResize, style } from "../dom";
-import type { Context } from "../main";
 import { recipeAt } from "../recipe";
 
 /** Of a row, in CSS pixels: a picture, and the ticks below it. */
 const SIDE = 58;
 const FOOT = 9;
 
-export function strip({ store, actions, thumbnails }: Context): HTMLElement {
+export function strip({ root, store, actions, thumbnails }: Context): HTMLElement {
   const canvas = el("canvas", { "aria-hidden": "true" });
   const head = el("div.playhead");
   const names = el("div.names");
   const input = el(
     "input",
-    { id: "t", type: "range", min: 0, max: 1, step: 0.001, "aria-label": "Position t on the route" },
+    { name: "t", type: "range", min: 0, max: 1, step: 0.001, "aria-label": "Position t on the route" },
     {
       oninput: () => {
         store.set({ playing: false });
@@ -60,11 +60,11 @@ export function strip({ store, actions, thumbnails }: Context): HTMLElement {
       context.drawImage(cell, at(t) - SIDE / 2, top, SIDE, SIDE);
     }
     const bottom = top + SIDE + FOOT;
-    context.fillStyle = style("--line");
+    context.fillStyle = style(root, "--line");
     context.fillRect(at(0), bottom - 1, width - SIDE, 1);
-    context.fillStyle = style("--quiet");
+    context.fillStyle = style(root, "--quiet");
     for (const t of route.crossings) context.fillRect(at(t) - 0.5, bottom - 4, 1, 4);
-    context.fillStyle = style("--text");
+    context.fillStyle = style(root, "--text");
     for (const t of route.stop_t) context.fillRect(at(t) - 1, bottom - 7, 2, 7);
   };
   onResize(element, (width, height) => {
@@ -72,7 +72,7 @@ export function strip({ store, actions, thumbnails }: Context): HTMLElement {
     canvas.height = height;
     draw();
   });
-  store.watch(({ route, otherRoute }) => [route, otherRoute], draw);
+  store.watch(({ route, otherRoute, scheme }) => [route, otherRoute, scheme], draw);
   store.watch(
     ({ space, compare }) => [space, compare] as const,
     ([space, compare]) => {
@@ -81,6 +81,5 @@ export function strip({ store, actions, thumbnails }: Context): HTMLElement {
       element.style.height = `${(SIDE + FOOT) * Math.max(1, rows.length)}px`;
     },
   );
-  document.addEventListener("themechange", draw);
   return element;
 }

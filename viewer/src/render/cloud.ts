@@ -150,7 +150,7 @@ export class Cloud {
     attribute.needsUpdate = true;
   }
 
-  setColours(line: string, text: string, accent: string, ground: string): void {
+  setColours(text: string, accent: string, ground: string): void {
     this.edges.material.color.set(text);
     this.simplex.material.color.set(text);
     this.route.material.color.set(accent);
@@ -163,7 +163,6 @@ export class Cloud {
       // The shader writes to the screen as it is: no conversion to linear light.
       (uniform!.value as Color).setStyle(css, "srgb-linear" as never);
     }
-    void line;
   }
 
   resize(width: number, height: number, ratio: number): void {
@@ -186,6 +185,12 @@ export class Cloud {
 
   draw(): void {
     this.renderer.render(this.scene, this.camera);
+  }
+
+  dispose(): void {
+    this.controls.dispose();
+    this.renderer.dispose();
+    this.renderer.forceContextLoss();
   }
 
   /** Where a point is on the panel, in CSS pixels, and how far from the camera. */

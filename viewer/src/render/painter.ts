@@ -119,6 +119,11 @@ export class Painter {
     );
   }
 
+  dispose(): void {
+    this.renderer.dispose();
+    this.renderer.forceContextLoss();
+  }
+
   resize(width: number, height: number): void {
     if (this.target?.width === width && this.target.height === height) return;
     this.renderer.setPixelRatio(1);

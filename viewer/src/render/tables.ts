@@ -11,7 +11,7 @@ import {
   Vector3,
 } from "three";
 
-import * as api from "../api/client";
+import type { Client } from "../api/client";
 import type { Axis } from "../api/schema";
 import { lobe } from "../brdf/lobe";
 import type { Table } from "../brdf/table";
@@ -36,7 +36,10 @@ export class Tables {
   private readonly failed = new Set<string>();
   private wanted: readonly string[] = [];
 
-  constructor(private readonly grid: readonly [Axis, Axis, Axis]) {}
+  constructor(
+    private readonly client: Client,
+    private readonly grid: readonly [Axis, Axis, Axis],
+  ) {}
 
   get(name: string): TableOnCard | undefined {
     return this.loaded.get(name);
@@ -60,7 +63,7 @@ export class Tables {
   private async fetch(name: string): Promise<void> {
     let problem: string | null = null;
     try {
-      const block = await api.table(name);
+      const block = await this.client.table(name);
       this.makeRoom();
       this.loaded.set(name, toCard({ name, grid: this.grid, halfs: block.halfs, scale: block.scale }));
     } catch (error) {

@@ -1,0 +1,130 @@
+// The page in an element: ask for the library, build the panels, fetch what the state needs.
+//
+// Several may stand in one document. Data come through the client alone, and what the page wants of its surroundings is an
+// option: it looks neither at the address nor at what the browser stores.
+
+import { type Block, type Client, Problem } from "./api/client";
+import type { Axis, LibrarySummary } from "./api/schema";
+import { isDrawable } from "./brdf/grid";
+import type { Context, Options } from "./context";
+import { el } from "./dom";
+import { fetchOtherRoutes, fetchPlaces, fetchRoutes, fetchSpaces, keepLink, play } from "./follow";
+import { listenToKeys } from "./keys";
+import { brdfPanel } from "./panels/brdfPanel";
+import { head } from "./panels/head";
+import { materialView } from "./panels/materialView";
+import { recipePanel } from "./panels/recipePanel";
+import { routePanel } from "./panels/routePanel";
+import { spaceView } from "./panels/spaceView";
+import { fromHash } from "./permalink";
+import { Tables } from "./render/tables";
+import { Actions, createState, type State } from "./state";
+import type { Store } from "./store";
+import { Thumbnails } from "./thumbnails";
+import "./styles/index.css";
+
+/** A page that stands in an element. */
+export interface Mounted {
+  readonly store: Store<State>;
+  readonly actions: Actions;
+  /** Take the page away and give its memory back. */
+  readonly unmount: () => void;
+}
+
+/** Build the page in `element`; a library that cannot be shown is said there, and thrown as a `Problem`. */
+export async function mount(element: HTMLElement, client: Client, options: Options = {}): Promise<Mounted> {
+  element.classList.add("halfway");
+  element.replaceChildren(el("p.waiting", { role: "status" }, {}, "Reading the library …"));
+  try {
+    const [library, thumbnails, environment] = await Promise.all([
+      client.library(),
+      client.thumbnails(),
+      client.environment(),
+    ]);
+    return show(element, client, options, library, thumbnails, environment);
+  } catch (error) {
+    const text = error instanceof Error ? error.message : String(error);
+    element.replaceChildren(el("p.waiting.failed", { role: "alert" }, {}, text));
+    throw error;
+  }
+}
+
+function show(
+  root: HTMLElement,
+  client: Client,
+  options: Options,
+  library: LibrarySummary,
+  thumbnails: Block,
+  environment: Block,
+): Mounted {
+  if (!isDrawable(library.grid)) {
+    throw new Problem(
+      `${library.name} has a grid over ${library.grid.map(({ angle }) => angle).join(", ")}: the explorer draws theta_h, theta_d, phi_d.`,
+    );
+  }
+  const linked = { ...fromHash(options.fragment ?? "", library), ...options.linked };
+  const store = createState(library, linked, options.theme ?? "auto");
+  const gone = new AbortController();
+  const context: Context = {
+    root,
+    client,
+    options,
+    store,
+    actions: new Actions(store),
+    thumbnails: new Thumbnails(
+      library.materials.map(({ name }) => name),
+      thumbnails,
+    ),
+    tables: new Tables(client, library.grid as unknown as readonly [Axis, Axis, Axis]),
+    environment,
+    signal: gone.signal,
+  };
+  applyTheme(context);
+  root.replaceChildren(
+    el(
+      "div.layout",
+      {},
+      {},
+      head(context),
+      spaceView(context),
+      materialView(context),
+      el("div.side", {}, {}, recipePanel(context), brdfPanel(context)),
+      routePanel(context),
+    ),
+  );
+  fetchRoutes(context);
+  fetchOtherRoutes(context);
+  fetchPlaces(context);
+  fetchSpaces(context);
+  keepLink(context);
+  play(context);
+  listenToKeys(context);
+  root.classList.add("ready");
+  const unmount = () => {
+    gone.abort();
+    root.replaceChildren();
+    root.classList.remove("ready");
+  };
+  return { store, actions: context.actions, unmount };
+}
+
+function applyTheme({ root, store, options, signal }: Context): void {
+  const system = matchMedia("(prefers-color-scheme: light)");
+  const apply = () => {
+    const { theme } = store.get();
+    const scheme = theme === "auto" ? (system.matches ? "light" : "dark") : theme;
+    // First, so that who watches the scheme reads its colours.
+    root.dataset.theme = scheme;
+    store.set({ scheme });
+  };
+  system.addEventListener("change", apply, { signal });
+  store.watch(({ theme }) => theme, apply);
+  let last = store.get().theme;
+  store.watch(
+    ({ theme }) => theme,
+    (theme) => {
+      if (theme !== last) options.onTheme?.(theme);
+      last = theme;
+    },
+  );
+}
