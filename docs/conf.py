@@ -12,7 +12,7 @@ sys.path.insert(0, str(HERE / "_ext"))
 
 project = "halfway"
 author = "The halfway developers"
-copyright = "The halfway developers, BSD-3-Clause"
+copyright = "The halfway developers, BSD-3-Clause"  # noqa: A001 (what Sphinx calls it)
 release = version = halfway.__version__
 
 extensions = [
@@ -28,6 +28,7 @@ exclude_patterns = ["_build", "_ext", "gallery/*.ipynb", "gallery/*.py.md5"]
 suppress_warnings = ["toc.not_included"]  # pages come before their place in index.md
 
 myst_enable_extensions = ["colon_fence", "deflist"]
+smartquotes = False  # --option is two hyphens
 myst_heading_anchors = 4
 
 default_role = "py:obj"

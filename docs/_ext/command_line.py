@@ -5,14 +5,17 @@ Each command becomes a section with its usage, its text, its examples and its op
 
 import inspect
 from collections.abc import Iterator
+from typing import Any
 
-import click
 import typer
 from docutils import nodes
 from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxDirective
 
 from halfway.cli import app as commands
+
+Command = Any
+"""Of click, which typer brings under a name that changes."""
 
 
 class CommandLine(SphinxDirective):
@@ -31,53 +34,32 @@ def setup(app: Sphinx) -> dict[str, bool]:
 
 
 def _blocks() -> Iterator[list[str]]:
-    for name, command in leaves(typer.main.get_command(commands), "halfway"):
+    for name, command in _leaves(typer.main.get_command(commands), "halfway"):
         yield from _section(name, command)
 
 
-def leaves(command: click.Command, name: str) -> Iterator[tuple[str, click.Command]]:
+def _leaves(command: Command, name: str) -> Iterator[tuple[str, Command]]:
     """Every command that does something, with its whole name, in the order of ``--help``."""
-    if isinstance(command, click.Group):
-        context = click.Context(command)
-        for word in command.list_commands(context):
-            inner = command.get_command(context, word)
-            if inner is not None:
-                yield from leaves(inner, f"{name} {word}")
-    else:
+    if not hasattr(command, "commands"):
         yield name, command
+        return
+    for word, inner in command.commands.items():
+        yield from _leaves(inner, f"{name} {word}")
 
 
-def _section(name: str, command: click.Command) -> Iterator[list[str]]:
-    context = click.Context(command, info_name=name)
+def _section(name: str, command: Command) -> Iterator[list[str]]:
+    context = command.context_class(command, info_name=name)
     yield [f"## `{name}`"]
-    yield ["```text", " ".join([name, *command.collect_usage_pieces(context)]), "```"]
+    usage = " ".join([name, *command.collect_usage_pieces(context)])
+    yield ["```text", usage, "```"]
     for paragraph in inspect.cleandoc(command.help or "").split("\n\n"):
-        kept = paragraph.startswith("\b")
+        example = paragraph.startswith("\b")
         lines = paragraph.removeprefix("\b").strip("\n").splitlines()
-        yield ["```console", *lines, "```"] if kept else lines
-    arguments = [p for p in command.params if isinstance(p, click.Argument)]
-    options = [p for p in command.params if isinstance(p, click.Option)]
-    rows = [(f"`{p.make_metavar(context)}`", getattr(p, "help", None) or "") for p in arguments] + [
-        (_flags(p, context), _told(p, context)) for p in options
-    ]
-    if rows:
-        yield ["| argument or option | what it is |", "|---|---|"] + [
-            f"| {left} | {_escape(right)} |" for left, right in rows
-        ]
+        yield ["```sh", *lines, "```"] if example else lines
+    records = [param.get_help_record(context) for param in command.params]
+    rows = [f"| `{_escaped(name)}` | {_escaped(text)} |" for name, text in filter(None, records)]
+    yield ["| | |", "|---|---|", *rows]
 
 
-def _flags(option: click.Option, context: click.Context) -> str:
-    names = ", ".join(f"`{name}`" for name in (*option.opts, *option.secondary_opts))
-    metavar = "" if option.is_flag else f" `{_escape(option.make_metavar(context))}`"
-    return names + metavar
-
-
-def _told(option: click.Option, context: click.Context) -> str:
-    default = option.get_default(context)
-    shown = default not in (None, "", False) and "[default" not in (option.help or "")
-    value = getattr(default, "value", default)
-    return (option.help or "") + (f" Default: `{value}`." if shown else "")
-
-
-def _escape(text: str) -> str:
+def _escaped(text: str) -> str:
     return text.replace("|", "\\|")
