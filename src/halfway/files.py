@@ -1,6 +1,7 @@
 """Files that are whole or absent: written beside the final name, then renamed into place."""
 
 import errno
+import re
 import secrets
 import shutil
 from collections.abc import Generator
@@ -8,6 +9,9 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from .errors import OutputError
+
+_TOKEN_BYTES = 6
+_TEMPORARY = re.compile(rf"\..+\.[0-9a-f]{{{2 * _TOKEN_BYTES}}}(\.\w+)?")
 
 
 @contextmanager
@@ -21,16 +25,37 @@ def replacing(path: Path) -> Generator[Path]:
     OutputError
         When the folder cannot be written, or has no room left.
     """
-    temporary = path.with_name(f".{path.stem}.{secrets.token_hex(6)}{path.suffix}")
+    temporary = path.with_name(f".{path.stem}.{secrets.token_hex(_TOKEN_BYTES)}{path.suffix}")
+    with explaining(path):
+        try:
+            path.parent.mkdir(parents=True, exist_ok=True)
+            yield temporary
+            temporary.replace(path)
+        finally:
+            with suppress(OSError):
+                temporary.unlink()
+
+
+@contextmanager
+def explaining(path: Path) -> Generator[None]:
+    """Turn what goes wrong while ``path`` is written into one line that says what to do.
+
+    Raises
+    ------
+    OutputError
+        For every `OSError` inside the block.
+    """
     try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        yield temporary
-        temporary.replace(path)
+        yield
     except OSError as error:
         raise OutputError(_explain(path, error)) from error
-    finally:
-        with suppress(OSError):
-            temporary.unlink()
+
+
+def sweep(folder: Path) -> None:
+    """Remove the temporary files that killed writers of `replacing` left in ``folder``; nobody may be writing there."""
+    for path in list(folder.rglob(".*")):
+        if _TEMPORARY.fullmatch(path.name) and path.is_file():
+            path.unlink(missing_ok=True)
 
 
 def require_space(folder: Path, n_bytes: int, what: str) -> None:
