@@ -4,7 +4,7 @@ from ..brdf.sphere import JUDGING_SCENE, PACING_SCENE, BasisScene, SphereOperato
 from .basis import BasisImages
 from .basis_samples import BasisSamples
 from .library import Library, Origin
-from .opening import DEFAULT_LIBRARY, open_library
+from .opening import DEFAULT_LIBRARY, library_called, open_library
 from .pca import Pca
 from .procedural import ProceduralLibrary
 from .stored import StoredLibrary, build_library
@@ -23,5 +23,6 @@ __all__ = [
     "SphereOperator",
     "StoredLibrary",
     "build_library",
+    "library_called",
     "open_library",
 ]

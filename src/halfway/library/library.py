@@ -13,6 +13,9 @@ There are two kinds behind this interface: *stored* on disk, and *procedural*, c
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from difflib import get_close_matches
+from itertools import count
+from typing import Any, TypeVar
+from weakref import WeakValueDictionary
 
 from .._types import Rows, Table
 from ..brdf import TabularBrdf
@@ -33,6 +36,13 @@ class Origin:
     licence: str = ""
 
 
+L = TypeVar("L", bound="Library")
+
+# A recipe knows its library by name; this finds it again while someone holds it. Weak: nothing is kept alive.
+_IN_USE: WeakValueDictionary[int, "Library"] = WeakValueDictionary()
+_ORDER = count()
+
+
 class Library(ABC):
     """A set of materials on one grid."""
 
@@ -42,6 +52,11 @@ class Library(ABC):
     origin: Origin
     checksum: str
     """Hex digits that change when any sample, name or the grid changes."""
+
+    def __new__(cls: type[L], *_: Any, **__: Any) -> L:
+        library = super().__new__(cls)
+        _IN_USE[next(_ORDER)] = library
+        return library
 
     @abstractmethod
     def row(self, i: int) -> Table:
@@ -83,3 +98,9 @@ class Library(ABC):
         """The table of the material called ``name``."""
         values = self.row(self.index(name)).reshape(3, *self.grid.shape)
         return TabularBrdf(values, self.grid, name=name)
+
+
+def in_use(name: str) -> Library | None:
+    """The library called ``name`` that was made last, of those that this process still holds."""
+    libraries = [library for _, library in sorted(_IN_USE.items())]
+    return next((lib for lib in reversed(libraries) if getattr(lib, "name", None) == name), None)

@@ -11,7 +11,7 @@ from pathlib import Path
 from ..errors import LibraryError
 from ..formats import read_nbrdf_archive
 from ..models import BUILTIN, builtin
-from .library import Library, Origin
+from .library import Library, Origin, in_use
 from .procedural import ProceduralLibrary
 from .stored import StoredLibrary
 
@@ -46,6 +46,14 @@ def open_library(where: str | Path) -> Library:
         + ", ".join(f"{BUILTIN_PREFIX}{name}" for name in BUILTIN)
         + "."
     )
+
+
+def library_called(name: str) -> Library:
+    """The library that a recipe or a route calls ``name``: one in use, or else what `open_library` finds.
+
+    A stored library is called like its folder without where that is, so it is found only while the caller holds it.
+    """
+    return in_use(name) or open_library(name)
 
 
 def _open_archive(path: Path) -> Library:

@@ -72,6 +72,14 @@ class Route:
             np.linspace(0, 1, len(stops)),
         )
 
+    def __repr__(self) -> str:
+        return f"Route({' to '.join(self.stops)}, {self.space}, {self.pace} pace, {self.library!r})"
+
+    def _repr_png_(self) -> bytes | None:
+        from .portraits import N_SPHERES, picture_recipes
+
+        return picture_recipes(self.library, self.names, self.at(np.linspace(0, 1, N_SPHERES)))
+
     def steps(self, n: int) -> list[float]:
         """``n`` values of t from 0 to 1: every stop, and each leg evenly, as many steps as its share of t.
 
