@@ -18,7 +18,7 @@ from halfway.render.camera import camera_to_world, window
 from halfway.render.denoise import denoised
 from halfway.render.exposure import PASS_SAMPLES, Exposure, Layer
 from halfway.render.scenes import SCENES, Camera
-from halfway.render.variant import Llvm, find_llvm, require_tables
+from halfway.render.variant import Llvm, aborting, find_llvm, require_tables
 
 GRID = Grid.merl(4, 4, 8)
 GREY = TabularBrdf(np.full((3, *GRID.shape), 0.2, np.float32), GRID)
@@ -102,10 +102,18 @@ def test_the_doctor_names_everything_and_what_its_absence_costs():
     assert findings[2].found == "llvm_ad_rgb"
 
 
-@pytest.mark.parametrize("variant", ["scalar_rgb", "llvm_ad_spectral", "llvm_ad_mono_polarized"])
+@pytest.mark.parametrize("variant", ["scalar_rgb", "scalar_spectral", "llvm_ad_spectral_polarized"])
 def test_variants_that_cannot_look_up_tables_are_refused(variant):
     with pytest.raises(RenderError, match=variant):
         require_tables(variant)
+
+
+@pytest.mark.parametrize(("version", "aborts"), [(15, True), (16, True), (19, False), (23, False)])
+def test_an_llvm_that_aborts_is_seen_among_what_is_loaded(version, aborts):
+    """So that Mitsuba, imported before, gets an error and not a process that dies at the first render."""
+    line = f"7f00-7f01 r-xp 00000000 00:00 1    /usr/lib/x86_64-linux-gnu/libLLVM-{version}.so.1"
+    found = aborting(["7f00-7f01 rw-p 00000000 00:00 0 ", line])
+    assert (found is not None) == aborts
 
 
 def test_an_llvm_that_aborts_is_not_chosen(tmp_path):

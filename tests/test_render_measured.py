@@ -1,5 +1,6 @@
 """The renderer on the neural stand-in of MERL: ten materials from matte to mirror, and the plugin in Mitsuba's own scenes."""
 
+import json
 import subprocess
 import sys
 from functools import cache
@@ -225,21 +226,62 @@ def test_values_in_a_dict_make_a_table():
     assert_allclose(bsdf.eval(*args), TableBsdf(mi.Properties(), brdf).eval(*args), rtol=1e-6)
 
 
-def test_a_monochromatic_variant_sees_the_luminance():
-    """In a process of its own: the class belongs to one variant."""
-    trial = """
-import mitsuba as mi
-import halfway.render
+def in_variant(variant: str, program: str) -> np.ndarray:
+    """What a program prints as JSON in another variant; in a process of its own, for the class belongs to one."""
+    start = f"""
+import json, numpy as np
+from halfway.render import register
 from halfway.render.variant import load_mitsuba
-load_mitsuba()
-mi.set_variant("llvm_ad_mono")
-halfway.render.register()
-import drjit as dr, numpy as np
-values = np.ones((3, 4, 4, 8), np.float32) * np.array([0.1, 0.2, 0.3], np.float32)[:, None, None, None]
-bsdf = mi.load_dict({"type": "halfway_table", "values": mi.TensorXf(values)})
-si = dr.zeros(mi.SurfaceInteraction3f)
-si.wi = mi.Vector3f(0, 0, 1)
-print(bsdf.eval(mi.BSDFContext(), si, mi.Vector3f(0, 0, 1))[0][0])
+mi = load_mitsuba()
+mi.set_variant({variant!r})
+register()
+colours = np.array({COLOURS.tolist()}, np.float32)
+def flat(rgb):
+    values = np.ones((3, 4, 4, 8), np.float32) * rgb[:, None, None, None]
+    return {{"type": "halfway_table", "values": mi.TensorXf(values)}}
 """
-    done = subprocess.run([sys.executable, "-c", trial], capture_output=True, text=True, check=True)
-    assert_allclose(float(done.stdout), 0.212671 * 0.1 + 0.715160 * 0.2 + 0.072169 * 0.3, rtol=1e-5)
+    done = subprocess.run(
+        [sys.executable, "-c", start + program], capture_output=True, text=True, check=True
+    )
+    return np.array(json.loads(done.stdout.splitlines()[-1]))
+
+
+COLOURS = np.array([[0.2, 0.1, 0.05], [0.02, 0.15, 0.3], [0.3, 0.3, 0.3]])
+
+
+def test_a_monochromatic_variant_sees_the_luminance():
+    seen = in_variant(
+        "llvm_ad_mono",
+        """
+import drjit as dr
+si = dr.zeros(mi.SurfaceInteraction3f)
+si.wi = normal = mi.Vector3f(0, 0, 1)
+values = [mi.load_dict(flat(rgb)).eval(mi.BSDFContext(), si, normal)[0][0] for rgb in colours]
+print(json.dumps(values))
+""",
+    )
+    assert_allclose(seen, COLOURS @ [0.212671, 0.715160, 0.072169], rtol=1e-5)
+
+
+def test_a_spectral_variant_shows_the_colour_under_daylight():
+    """Through Mitsuba's own D65, observer and film; 2e-3 of the brightest channel is its noise with 65,536 samples a colour."""
+    seen = in_variant(
+        "llvm_ad_spectral",
+        """
+def scene(rgb):
+    return mi.load_dict({
+        "type": "scene",
+        "sensor": {
+            "type": "perspective",
+            "to_world": mi.ScalarTransform4f().look_at([0, 0, 4], [0, 0, 0], [0, 1, 0]),
+            "fov": 20,
+            "film": {"type": "hdrfilm", "width": 4, "height": 4, "pixel_format": "rgb"},
+        },
+        "light": {"type": "directional", "direction": [0, 0, -1], "irradiance": {"type": "d65"}},
+        "wall": {"type": "rectangle", "bsdf": flat(rgb)},
+        "integrator": {"type": "direct"},
+    })
+print(json.dumps([np.array(mi.render(scene(rgb), spp=4096)).mean((0, 1)).tolist() for rgb in colours]))
+""",
+    )
+    assert_allclose(seen, COLOURS, atol=2e-3 * COLOURS.max())

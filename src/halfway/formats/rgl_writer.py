@@ -26,11 +26,9 @@ from .rgl_normals import Normals
 from .rgl_quality import Quality, lit_sphere, quality
 from .rgl_reader import from_fields
 from .rgl_warp import Interpolant, Warp, slices
-from .spectra import smooth_primaries
+from .spectra import WAVELENGTHS, smooth_primaries
 from .tensor_file import write_tensor_file
 
-WAVELENGTHS = np.arange(380.0, 781, 20)
-"""In nm: where a spectral file has its values."""
 
 _GRAZING = np.pi / 2 - 1e-3
 _LEAST_COSINE = 1e-4

@@ -16,6 +16,9 @@ import numpy as np
 
 ILLUMINANT = "D65"
 
+WAVELENGTHS = np.arange(380.0, 781, 20)
+"""nm, where a spectrum made of RGB is sampled."""
+
 # nm, S, x-bar, y-bar, z-bar
 _CIE: np.ndarray = np.array([
     [380, 49.9755, 0.001368, 0.000039, 0.006450],

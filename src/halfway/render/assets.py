@@ -20,7 +20,7 @@ def read_mesh(path: Path) -> Mesh:
     """The triangles of a ``.ply`` or ``.obj`` file, y up in the file, faces turned outward."""
     kind = _require_file(path, "mesh", (".ply", ".obj"))
     if kind == "obj" and b"\nf " not in b"\n" + path.read_bytes():
-        raise RenderError(f"The mesh {path} has no faces: expected one or more (lines f 1 2 3).")
+        raise RenderError(f"{path} has no faces: expected one or more (lines f 1 2 3).")
     try:
         with quiet():
             shape = mi.load_dict({"type": kind, "filename": str(path)})
@@ -29,10 +29,10 @@ def read_mesh(path: Path) -> Mesh:
         positions = np.array(parameters["vertex_positions"]).reshape(-1, 3)
         normals = np.array(parameters["vertex_normals"]).reshape(-1, 3)
     except RuntimeError as error:
-        raise RenderError(f"The mesh {path} cannot be read: {_reason(error)}") from error
+        raise RenderError(f"{path} cannot be read: {_reason(error)}") from error
     if not len(faces) or not np.isfinite(positions).all():
         raise RenderError(
-            f"The mesh {path} has {len(faces)} triangles and {np.isnan(positions).sum()} missing coordinates: "
+            f"{path} has {len(faces)} triangles and {np.isnan(positions).sum()} missing coordinates: "
             "expected one or more triangles and none missing."
         )
     return outward(positions, normals, faces)
@@ -46,11 +46,11 @@ def read_environment(path: Path) -> np.ndarray:
             mi.Bitmap.PixelFormat.RGB, mi.Struct.Type.Float32, False
         )
     except RuntimeError as error:
-        raise RenderError(f"The environment {path} cannot be read: {_reason(error)}") from error
+        raise RenderError(f"{path} cannot be read: {_reason(error)}") from error
     radiance = np.array(bitmap)
     if not np.isfinite(radiance).all() or radiance.max() <= 0:
         raise RenderError(
-            f"The environment {path} has radiance from {radiance.min()} to {radiance.max()}: "
+            f"{path} has radiance from {radiance.min()} to {radiance.max()}: "
             "expected finite values, some above 0."
         )
     return radiance
@@ -60,10 +60,10 @@ def _require_file(path: Path, what: str, suffixes: tuple[str, ...]) -> str:
     """The suffix without its dot."""
     if path.suffix.lower() not in suffixes:
         raise RenderError(
-            f"The {what} {path} is of an unknown kind: expected {' or '.join(suffixes)}."
+            f"the {what} {path} is of an unknown kind: expected {' or '.join(suffixes)}."
         )
     if not path.is_file():
-        raise RenderError(f"The {what} {path} does not exist.")
+        raise RenderError(f"there is no {what} {path}: see where you are, or give its whole path.")
     return path.suffix.lower()[1:]
 
 

@@ -58,7 +58,7 @@ class BasisPictures:
     ) -> None:
         if not renderer.linear:
             raise RenderError(
-                f"Light bounces {renderer.bounces} times in this {renderer.scene.name}, so the picture of a mix "
+                f"light bounces {renderer.bounces} times in this {renderer.scene.name}, so the picture of a mix "
                 "is not the mix of the pictures: expected direct light. Use --bounces 1, or render every frame in full."
             )
         self._renderer = renderer

@@ -11,6 +11,9 @@ Angles come from the two directions without acos, so that float32 resolves the f
     theta_h = atan2(|H_xy|, H_z)        theta_d = atan2(|u|, |H|)
     phi_d   = atan2((H_x u_y - H_y u_x) |H|, (H_x u_x + H_y u_y) H_z - u_z |H_xy|^2)
 
+In a spectral variant the value at a wavelength is that of three smooth primaries (`halfway.formats.spectra`), so that
+its colour under D65 is the table's, and a mix has the mix of the spectra.
+
 The class belongs to the Mitsuba variant that is set when this module is imported: `halfway.render.register` sees to it.
 """
 
@@ -26,6 +29,7 @@ import numpy as np
 from ..brdf import TabularBrdf, tabulate
 from ..errors import RenderError
 from ..formats import read_brdf
+from ..formats.spectra import WAVELENGTHS, smooth_primaries
 from ..halfdiff import MERL, Axis, Grid
 from ..library import open_library
 from ..space import Mixer, Recipe
@@ -62,13 +66,14 @@ class TableBsdf(mi.BSDF):
         self.grid = brdf.grid
         self.table = buffer(pack(brdf))
         self.sampling = HalfVectorSampling(self)
+        self.primaries = buffer(_primaries()) if mi.is_spectral else None
         self.m_flags = mi.BSDFFlags.GlossyReflection | mi.BSDFFlags.FrontSide
         self.m_components = [self.m_flags]
 
     def eval(self, ctx: Any, si: Any, wo: Any, active: Any = True) -> Any:
         wi, wo = wo, si.wi
         active = active & self._enabled(ctx) & (wi.z > 0) & (wo.z > 0)
-        return _spectrum(self.values(wi, wo, active) * wi.z) & active
+        return self._spectrum(self.values(wi, wo, active) * wi.z, si) & active
 
     def pdf(self, ctx: Any, si: Any, wo: Any, active: Any = True) -> Any:
         wi, wo = wo, si.wi
@@ -92,9 +97,9 @@ class TableBsdf(mi.BSDF):
         weight = self.eval(ctx, si, bs.wo, active) / bs.pdf
         return bs, weight & active
 
-    def eval_diffuse_reflectance(self, si: Any, active: Any = True) -> Any:  # noqa: ARG002
+    def eval_diffuse_reflectance(self, si: Any, active: Any = True) -> Any:
         """The albedo guide of a denoiser: the material's mean reflectance."""
-        return _spectrum(self.sampling.reflectance) & active
+        return self._spectrum(self.sampling.reflectance, si) & active
 
     def values(self, wi: Any, wo: Any, active: Any) -> Any:
         """f_r in 1/sr of pairs above the horizon: `TabularBrdf.eval`, never negative."""
@@ -115,9 +120,28 @@ class TableBsdf(mi.BSDF):
         if not keys or "table" in keys:
             if dr.width(self.table) != 4 * self.grid.size:
                 raise RenderError(
-                    f"The new table has {dr.width(self.table)} floats: a {self.grid} grid takes {4 * self.grid.size}."
+                    f"the new table has {dr.width(self.table)} floats: a {self.grid} grid takes {4 * self.grid.size}."
                 )
             self.sampling = HalfVectorSampling(self)
+
+    def _spectrum(self, color: Any, si: Any) -> Any:
+        """The colour as this variant carries it."""
+        if mi.is_monochromatic:
+            return mi.Color1f(mi.luminance(color))
+        if not mi.is_spectral:
+            return color
+        first, last = WAVELENGTHS[[0, -1]]
+        position = (si.wavelengths - first) * ((len(WAVELENGTHS) - 1) / (last - first))
+        spectrum = mi.UnpolarizedSpectrum(0)
+        for i in range(len(spectrum)):
+            at = dr.clip(position[i], 0, len(WAVELENGTHS) - 1)
+            lower = dr.minimum(mi.UInt32(at), len(WAVELENGTHS) - 2)
+            below, above = (
+                dr.gather(mi.Vector4f, self.primaries, index) for index in (lower, lower + 1)
+            )
+            weights = dr.lerp(below, above, at - mi.Float(lower))
+            spectrum[i] = weights.x * color.x + weights.y * color.y + weights.z * color.z
+        return spectrum
 
     def _enabled(self, ctx: Any) -> bool:
         return ctx.is_enabled(mi.BSDFFlags.GlossyReflection)
@@ -190,8 +214,9 @@ def _neighbours(axis: Axis, angle: Any) -> list[tuple[Any, Any]]:
     return [(dr.clip(lower, 0, last), 1 - fraction), (dr.clip(upper, 0, last), fraction)]
 
 
-def _spectrum(color: Any) -> Any:
-    return mi.Color1f(mi.luminance(color)) if mi.is_monochromatic else color
+def _primaries() -> np.ndarray:
+    """The smooth primaries as the renderer reads them, shape (n wavelengths, 4)."""
+    return np.pad(smooth_primaries(WAVELENGTHS), [(0, 0), (0, 1)])
 
 
 def _read(props: Any) -> TabularBrdf:
@@ -206,7 +231,7 @@ def _read(props: Any) -> TabularBrdf:
         brdf = read_brdf(path)
         return brdf if isinstance(brdf, TabularBrdf) else tabulate(brdf, MERL, name=path.stem)
     raise RenderError(
-        "A halfway_table has neither a filename, nor a recipe, nor values: expected one of them."
+        "halfway_table has neither a filename, nor a recipe, nor values: expected one of them."
     )
 
 

@@ -26,7 +26,7 @@ def require_denoiser() -> None:
     """
     if not denoiser_available():
         raise RenderError(
-            "Denoising needs the package mitsuba-oidn, which is not installed. "
+            "denoising needs the package mitsuba-oidn, which is not installed. "
             "Run pip install mitsuba-oidn, or render with more samples and without denoising."
         )
 

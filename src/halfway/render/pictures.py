@@ -68,7 +68,7 @@ def sheet(
 ) -> np.ndarray:
     """Pictures row by row, 8-bit, each with its label under it; about as wide as high unless ``columns`` says."""
     if not images:
-        raise OutputError("A contact sheet of no pictures: expected one or more.")
+        raise OutputError("a contact sheet of no pictures: expected one or more.")
     columns = columns or max(1, round(len(images) ** 0.5))
     tiles = [
         _labelled(to_srgb(image, exposure=exposure), label if labels else None)

@@ -173,7 +173,7 @@ class Renderer:
             tables = tables * n
         if len(tables) != n:
             raise RenderError(
-                f"The scene {self.scene.name} takes {n} materials: {len(tables)} were given. "
+                f"the scene {self.scene.name} takes {n} materials: {len(tables)} were given. "
                 "Give one for all objects or one for each."
             )
         return tables
@@ -187,10 +187,10 @@ def _scene(scene: str | Scene) -> Scene:
     if isinstance(scene, Scene):
         return scene
     if scene not in SCENES:
-        raise RenderError(f"There is no scene {scene!r}: there are {', '.join(SCENES)}.")
+        raise RenderError(f"there is no scene {scene!r}: there are {', '.join(SCENES)}.")
     return SCENES[scene]
 
 
 def _require(what: str, value: int, least: int, most: int) -> None:
     if not least <= value <= most:
-        raise RenderError(f"The {what} is {value}: expected {least} to {most}.")
+        raise RenderError(f"the {what} is {value}: expected {least} to {most}.")

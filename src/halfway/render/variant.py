@@ -11,7 +11,7 @@ import importlib.metadata
 import os
 import re
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -23,6 +23,7 @@ FALLBACK = "scalar_rgb"
 """Without LLVM: Mitsuba's own ``measured`` shows files that stand for the tables."""
 OLDEST_LLVM = 19
 """Dr.Jit refuses 14; 15 and 16 abort the process; 19 and later are known to work."""
+ABORTING_LLVM = 15, 16
 
 _PATH_VARIABLE = "DRJIT_LIBLLVM_PATH"
 _SYSTEM_LIBRARIES = {
@@ -64,26 +65,37 @@ def load_mitsuba() -> Any:
     Raises
     ------
     RenderError
-        When there is no Mitsuba, or ``DRJIT_LIBLLVM_PATH`` names no file.
+        When there is no Mitsuba, ``DRJIT_LIBLLVM_PATH`` names no file, or the program imported Mitsuba before and that
+        found an LLVM which would abort the process.
     """
     fitting = VARIANT
-    if "mitsuba" not in sys.modules:
+    imported = "mitsuba" in sys.modules
+    if not imported:
         fitting = VARIANT if _choose_llvm() else FALLBACK
     mi = _import_mitsuba()
+    if imported and (mi.variant() or fitting).startswith("llvm"):
+        _refuse_unfit_llvm()
     if mi.variant() is None:
         mi.set_variant(fitting)
     return mi
 
 
+def aborting(maps: Iterable[str]) -> Llvm | None:
+    """The library that will abort the process, if one is among those mapped into it (lines of ``/proc/self/maps``)."""
+    loaded = (Path(line.split()[-1]) for line in maps if "libLLVM" in line)
+    found = (Llvm(path, _version(path), "loaded by Mitsuba") for path in loaded)
+    return next((llvm for llvm in found if llvm.version in ABORTING_LLVM), None)
+
+
 def compiles(variant: str) -> bool:
-    """Whether tables can be looked up in this variant: many rays at once, three channels or their luminance."""
-    return re.fullmatch(r"(llvm|cuda)_ad_(rgb|mono)", variant) is not None
+    """Whether tables can be looked up in this variant: many rays at once, and no polarization, which no table has."""
+    return re.fullmatch(r"(llvm|cuda)_ad_(rgb|mono|spectral)", variant) is not None
 
 
 def register() -> None:
     """Make ``halfway_table`` known to Mitsuba, in the variant that is set, for scenes given as dicts or XML.
 
-    Tables work in ``llvm_ad`` and ``cuda_ad`` variants, rgb and mono; one is set where none is.
+    Tables work in ``llvm_ad`` and ``cuda_ad`` variants: rgb, mono and spectral; one is set where none is.
 
     Raises
     ------
@@ -92,8 +104,9 @@ def register() -> None:
 
     Examples
     --------
-    >>> import halfway.render, mitsuba as mi                                        # doctest: +SKIP
+    >>> import halfway.render                                                       # doctest: +SKIP
     >>> halfway.render.register()                                                   # doctest: +SKIP
+    >>> import mitsuba as mi                                                        # doctest: +SKIP
     >>> mi.load_dict({"type": "halfway_table", "filename": "gold-paint.binary"})    # doctest: +SKIP
     """
     mi = load_mitsuba()
@@ -115,7 +128,8 @@ def require_tables(variant: str) -> None:
     """
     if not compiles(variant):
         raise RenderError(
-            f"The Mitsuba variant {variant} cannot look up tables: llvm_ad and cuda_ad variants, rgb or mono, can. "
+            f"the Mitsuba variant {variant} cannot look up tables: expected one that compiles, such as {VARIANT}, and no "
+            f"polarization. "
             f"Call mi.set_variant({VARIANT!r}) first; it needs LLVM {OLDEST_LLVM} or later. {llvm_advice()}."
         )
 
@@ -134,12 +148,22 @@ def _choose_llvm() -> bool:
     return True
 
 
+def _refuse_unfit_llvm() -> None:
+    maps = Path("/proc/self/maps")  # only Linux tells what is loaded
+    llvm = aborting(maps.read_text().splitlines() if maps.exists() else [])
+    if llvm:
+        raise RenderError(
+            f"{llvm} aborts the process at the first render: expected {OLDEST_LLVM} or later. "
+            "Call halfway.render.register() before Mitsuba is imported, which chooses one that works."
+        )
+
+
 def _import_mitsuba() -> Any:
     try:
         import mitsuba
     except ImportError as error:
         raise RenderError(
-            f"Mitsuba cannot be imported ({error}): rendering needs it. Run pip install mitsuba."
+            f"mitsuba cannot be imported ({error}): rendering needs it. Run pip install mitsuba."
         ) from error
     return mitsuba
 

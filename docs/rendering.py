@@ -1,0 +1,109 @@
+"""The pictures and figures of the page on rendering: ``python docs/rendering.py [LIB]``."""
+
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+
+from halfway import Library, Route, open_library
+from halfway.library import BasisImages
+from halfway.render import QUALITY, SCENES, BasisPictures, Renderer, pictures
+from halfway.space import make_space, mix, perceptual
+
+FOLDER = Path(__file__).parent / "images"
+SHOWN = {
+    "teapot": ["gold-metallic-paint"],
+    "trio": ["cherry-235", "teflon", "tungsten-carbide"],
+    "spheres": ["green-acrylic"],
+    "sphere": ["alum-bronze"],
+}
+TEN = ("teflon", "pink-felt", "light-brown-fabric", "blue-fabric", "cherry-235", "alum-bronze",
+       "gold-metallic-paint", "green-acrylic", "tungsten-carbide", "chrome")  # fmt: skip
+STOPS = "cherry-235", "tungsten-carbide"
+N_FRAMES = 51
+
+
+def main(where: str = "builtin:merl-abc") -> None:
+    """Write the pictures, print the figures."""
+    library = open_library(where)
+    scenes(library)
+    qualities(library)
+    lookups(library)
+    route(library)
+
+
+def scenes(library: Library) -> None:
+    """Every scene, once."""
+    tiles = [
+        Renderer(name, size=(360, 270), spp=256, denoise=True).picture(
+            [library.brdf(material) for material in SHOWN[name]]
+        )
+        for name in SHOWN
+    ]
+    pictures.write(FOLDER / "scenes.webp", pictures.sheet(tiles, labels=list(SHOWN), columns=2))
+
+
+def qualities(library: Library) -> None:
+    """The same picture at every quality, and how far each is from one of 4,096 samples."""
+    brdf = library.brdf("light-brown-fabric")
+    best = Renderer("teapot", size=(360, 270), spp=4096, seed=1).picture(brdf)
+    tiles, labels = [], []
+    for name, options in QUALITY.items():
+        renderer = Renderer("teapot", size=(360, 270), **options)
+        renderer.picture(brdf)
+        start = time.perf_counter()
+        tiles.append(renderer.picture(brdf))
+        seconds = time.perf_counter() - start
+        difference = pictures.to_srgb(tiles[-1]).astype(float) - pictures.to_srgb(best)
+        error = np.sqrt(np.mean(difference**2))
+        labels.append(f"{name}: {options['spp']} spp{', denoised' if options['denoise'] else ''}")
+        print(f"{labels[-1]:30s} {seconds:5.2f} s  off by {error:.2f} of 255 (rms)")
+    pictures.write(FOLDER / "qualities.webp", pictures.strip(tiles, labels=labels))
+
+
+def lookups(library: Library) -> None:
+    """The mean of a point-lit sphere by the floor lookup, over that by interpolation."""
+    x, y = np.meshgrid(*2 * [(np.arange(768) + 0.5) / 384 - 1])
+    inside = x**2 + y**2 < 1
+    normal = np.stack([x, y, np.sqrt(np.maximum(1 - x**2 - y**2, 0))], axis=-1)[inside]
+    tangent = np.cross(normal, [0.3, 0.5, 0.8])
+    tangent /= np.linalg.norm(tangent, axis=-1, keepdims=True)
+    frame = np.stack([tangent, np.cross(normal, tangent), normal], axis=-2)
+    light = np.array([-0.48, 0.36, 0.8])
+    wi, wo = frame @ light, frame @ np.array([0.0, 0.0, 1.0])
+    cosine = np.maximum(wi[:, 2], 0)
+    for name in TEN:
+        brdf = library.brdf(name)
+        floor, between = (
+            np.nansum(brdf.eval(wi, wo, interpolation=how) * cosine[:, None])
+            for how in ("floor", "trilinear")
+        )
+        print(f"{name:24s} floor / interpolated: {floor / between - 1:+.2%}")
+
+
+def route(library: Library) -> None:
+    """A route's frames against the renders of the measured materials it touches, at 512 x 512."""
+    images = BasisImages.fit(library)
+    found = perceptual(Route.through(make_space("anchored", library), STOPS), images)
+    recipes = found.recipes(found.steps(N_FRAMES))
+    names = sorted({name for recipe in recipes for name in recipe.names})
+    renderer = Renderer("teapot", size=(512, 512), spp=64)
+    renderer.picture(library.brdf(names[0]))  # compiles, and renders the backdrop
+    basis = BasisPictures(renderer, library.brdf)
+    start = time.perf_counter()
+    basis.render(names)
+    middle = time.perf_counter()
+    frames = [basis.picture(recipe.names, recipe.weights) for recipe in recipes]
+    end = time.perf_counter()
+    half = recipes[N_FRAMES // 2]
+    full = renderer.picture(mix(library, half))
+    print(
+        f"{N_FRAMES} frames of 512 x 512 from {len(names)} materials: {middle - start:.1f} s for those, "
+        f"{(end - middle) / N_FRAMES * 1000:.0f} ms a frame; the middle one against a full render: "
+        f"{np.abs(frames[N_FRAMES // 2] - full).max() / full.max():.1e} of the brightest value"
+    )
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])
