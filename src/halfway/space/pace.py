@@ -38,13 +38,15 @@ Places = Float64[np.ndarray, "..."]
 
 def perceptual(route: Route, images: BasisImages) -> Route:
     """The same way at perceptual pace; a route on which nothing changes keeps its own."""
-    u, t = _lengths(route, replace(images, planes=images.planes[..., ::THINNING]))
+    t, length = lengths(route, images)
+    u = _shares(t, length)
     stop_ts = np.interp(route.stop_ts, t, u)
     return replace(route, pace="perceptual", knots=u, weights=route.at(t), stop_ts=stop_ts)
 
 
-def _lengths(route: Route, images: BasisImages) -> tuple[Places, Places]:
-    """The share u of its length that a route has covered at each of some t."""
+def lengths(route: Route, images: BasisImages) -> tuple[Places, Places]:
+    """Some t, the knots among them, and the length of the route from its start to each."""
+    images = replace(images, planes=images.planes[..., ::THINNING])
     t = np.union1d(route.knots, np.linspace(0, 1, N_START))
     looks = _looks(route, images, t)
     steps = _apart(looks[:-1], looks[1:])
@@ -59,10 +61,16 @@ def _lengths(route: Route, images: BasisImages) -> tuple[Places, Places]:
         steps = np.insert(steps, long + 1, second_halves)
         t = np.insert(t, long + 1, middle)
         looks = np.insert(looks, long + 1, between, axis=0)
-    if not steps.sum():
-        return t, t
-    u = np.append(0.0, np.cumsum(steps + LEAST * steps.sum()))
-    return u / u[-1], t
+    return t, np.append(0.0, np.cumsum(steps))
+
+
+def _shares(t: Places, length: Places) -> Places:
+    """The share u of its length that a route has covered at each t."""
+    steps = np.diff(length)
+    if not length[-1]:
+        return t
+    u = np.append(0.0, np.cumsum(steps + LEAST * length[-1]))
+    return u / u[-1]
 
 
 def _looks(route: Route, images: BasisImages, t: Places) -> Lab:
