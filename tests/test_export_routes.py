@@ -24,6 +24,7 @@ def test_the_folder_holds_the_recipes_and_the_tables(route, small_library, tmp_p
         "000.binary",
         "001.binary",
         "002.binary",
+        "manifest.json",
         "recipes.json",
     ]
     document = json.loads((tmp_path / "route" / "recipes.json").read_text())
@@ -71,7 +72,7 @@ def test_another_route_in_the_same_folder_keeps_no_stale_table(route, small_libr
 
 def test_a_foreign_recipes_json_is_not_touched(route, small_library, tmp_path):
     (tmp_path / "recipes.json").write_text('["lasagne"]')
-    with pytest.raises(OutputError, match="is in the way: it is no route of halfway"):
+    with pytest.raises(OutputError, match="is in the way: no manifest of halfway names it"):
         write_route(tmp_path, route, route.steps(3), small_library)
     assert (tmp_path / "recipes.json").read_text() == '["lasagne"]'
 
@@ -87,7 +88,7 @@ def test_too_little_space_is_said_before_anything_is_written(
 ):
     monkeypatch.setattr("shutil.disk_usage", lambda _: type("usage", (), {"free": 1000})())
     with pytest.raises(
-        OutputError, match=r"a route of 3 tables takes 0.00 GB and .* has 0.00 GB free"
+        OutputError, match=r"a batch of 4 files takes 0.00 GB and .* has 0.00 GB free"
     ):
         write_route(tmp_path / "route", route, route.steps(3), small_library, format="merl")
     assert not (tmp_path / "route").exists()

@@ -5,7 +5,7 @@ Commands import what they use when they run, so that ``--help`` is immediate.
 
 import typer
 
-from . import check, console, demo, files, library, mix, render, report, route, space, view
+from . import check, console, demo, files, library, mix, render, report, route, space, verify, view
 
 app = typer.Typer(
     name="halfway",
@@ -27,6 +27,7 @@ COMMANDS = (
     report.report,
     space.space,
     check.check,
+    verify.verify,
     files.convert,
     files.info,
     files.fetch,

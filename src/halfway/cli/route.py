@@ -1,73 +1,29 @@
 """``halfway route``: recipes, and tables, on the way from one material to another."""
 
 import json
-from enum import StrEnum
 from pathlib import Path
-from typing import Annotated
 
-import typer
-
+from . import options
 from .console import cache_folder, say, track
-
-
-class SpaceName(StrEnum):
-    anchored = "anchored"
-    paper = "paper"
-    linear = "linear"
-
-
-class Pace(StrEnum):
-    perceptual = "perceptual"
-    uniform = "uniform"
-
-
-class Format(StrEnum):
-    none = "none"
-    merl = "merl"
+from .options import Pace, SpaceName, TableFormat
 
 
 def route(
-    words: Annotated[
-        list[str],
-        typer.Argument(metavar="[LIB] A B [C...]", help="Two or more materials, by name."),
-    ],
-    n: Annotated[int, typer.Option("-n", help="Materials on the route, both ends included.")] = 51,
-    t: Annotated[
-        str,
-        typer.Option("--t", metavar="LIST", help="t instead of -n: 0,0.25,1 or 0.0001:1:0.0001."),
-    ] = "",
-    space: Annotated[
-        SpaceName,
-        typer.Option(
-            help="anchored: straight in colour, through real materials; paper: the paper's; linear: the ends alone."
-        ),
-    ] = SpaceName.anchored,
-    pace: Annotated[
-        Pace, typer.Option(help="perceptual: equal visible steps; uniform: the paper's.")
-    ] = Pace.perceptual,
-    detour: Annotated[
-        float,
-        typer.Option(
-            help="Longest anchored way, as a multiple of the direct one; 1 is nearly linear."
-        ),
-    ] = 1.1,
-    components: Annotated[
-        int, typer.Option("-k", help="Scores that span the space; the paper's takes 1 to 6.")
-    ] = 3,
-    output: Annotated[
-        Path | None, typer.Option("--output", "-o", metavar="DIR", help="[default: A-to-B]")
-    ] = None,
-    format: Annotated[
-        Format, typer.Option(help="Tables to write beside recipes.json.")
-    ] = Format.none,
-    as_json: Annotated[
-        bool, typer.Option("--json", help="Print recipes.json; write files only with -o.")
-    ] = False,
+    words: options.Stops,
+    n: options.Steps = 51,
+    t: options.Ts = "",
+    space: options.Space = SpaceName.anchored,
+    pace: options.Pacing = Pace.perceptual,
+    detour: options.Detour = 1.1,
+    components: options.Components = 3,
+    output: options.RouteFolder = None,
+    format: options.Tables = TableFormat.none,
+    as_json: options.RouteJson = False,
 ) -> None:
     """Go from one material to another, and on.
 
     Writes DIR/recipes.json, and with --format the tables 000.binary, 001.binary ... The same command again goes on
-    where it stopped.
+    where it stopped; halfway verify DIR checks what is there.
 
     \b
     halfway route light-brown-fabric blue-fabric -o fabric --format merl

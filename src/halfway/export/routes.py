@@ -1,28 +1,40 @@
-"""A route as a folder: its recipes, and their tables as files that renderers read.
+"""A route as a folder: its recipes, and their tables as files.
 
     DIR/
         recipes.json
-        000.binary, 001.binary, ...     one table per recipe, in the route's order
+        000.binary, 001.binary, ...     one table per recipe, in the route's order; or 000.bsdf, ...
+        tables.zarr/                    or all tables in one Zarr store, half precision
+        manifest.json                   what each file is made of, and its checksum
 
-A folder holds one route. Where recipes.json says the same as before, tables that are there are kept and the rest is
-written: a file under its final name is always whole. Where it says something else, the old route's tables go first.
+A folder holds one route, as a `Batch`: where recipes.json says the same as before, tables that are there are kept and the
+rest is written. Where it says something else, the old route's tables go first.
 """
 
+import hashlib
 import json
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
 from typing import Any, NamedTuple
 
+import numpy as np
+
+from ..brdf import TabularBrdf
 from ..errors import OutputError
-from ..files import replacing, require_space
+from ..files import replacing
 from ..formats import write_brdf
 from ..formats.content import merl_bytes
 from ..library import Library
 from ..space import Mixer, Recipe, Route
 from ..tasks import Track, run, silent
+from . import zarr_tables
+from .batch import Batch
+from .manifest import Checksum
 
-SUFFIXES = {"merl": ".binary"}
+FORMATS = ("none", "merl", "bsdf", "zarr")
+RECIPES = "recipes.json"
+BSDF_BYTES = 18_000_000
+"""Of the largest file that `halfway.formats.write_brdf` makes of its own accord."""
 
 
 class Written(NamedTuple):
@@ -44,67 +56,101 @@ def write_route(
 ) -> Written:
     """Write recipes.json, and with ``format`` a table for each t.
 
+    Parameters
+    ----------
+    format : str
+        ``none``; ``merl`` or ``bsdf``, a file for each table; ``zarr``, all in one store.
+
     Raises
     ------
     OutputError
-        When the folder cannot be written, or the disk has no room for the tables.
+        When the folder cannot be written or has no room, another run works in it, or a file in it is in the way.
     """
     document = {**route.to_json(ts), "library_checksum": library.checksum}
     text = json.dumps(document)
-    recipes = route.recipes(ts) if format != "none" else []
-    names = table_names(len(recipes), SUFFIXES.get(format, ""))
-    same = _is_same_route(folder, text)
-    size = merl_bytes(library.grid.shape)
-    missing = [
-        (folder / name, recipe)
-        for name, recipe in zip(names, recipes, strict=True)
-        if not (same and _is_whole(folder / name, size))
-    ]
-    require_space(folder, len(missing) * size, f"a route of {len(missing)} tables")
-    if not same:
-        _remove_tables(folder)
-        with replacing(folder / "recipes.json") as temporary:
-            temporary.write_text(text)
-    write = partial(_write_table, Mixer(library))
-    for _ in run(write, missing, label="Tables", track=track):
-        pass
-    return Written(len(missing), len(recipes) - len(missing))
+    recipes = route.recipes(ts)
+    tables = _tables(format, recipes, library)
+    made = {
+        "by": "route",
+        "library": library.name,
+        "library_checksum": library.checksum,
+        "recipes_sha256": hashlib.sha256(text.encode()).hexdigest(),
+    }
+    outputs: dict[str, Any] = {RECIPES: None} | dict.fromkeys(tables.texts)
+    outputs |= dict(zip(tables.names, document["recipes"], strict=False))
+    opened = Batch.open(folder, outputs, made=made, n_bytes=tables.n_bytes, track=track)
+    with opened as batch:
+        for name, content in ({RECIPES: text} | tables.texts).items():
+            if name in batch.missing:
+                batch.add(name, _write_text(folder / name, content))
+        missing = set(batch.missing)
+        tasks = [
+            (folder / name, recipe)
+            for name, recipe in zip(tables.names, recipes, strict=False)
+            if name in missing
+        ]
+        write = partial(_write_table, Mixer(library), tables.write)
+        written = run(write, tasks, label="Tables", track=track)
+        for (path, _), checksum in zip(tasks, written, strict=True):
+            batch.add(path.relative_to(folder).as_posix(), checksum)
+    return Written(len(tasks), len(tables.names) - len(tasks))
 
 
-def table_names(n: int, suffix: str) -> list[str]:
+class _Tables(NamedTuple):
+    """How the tables of a route lie in its folder."""
+
+    names: list[str]
+    n_bytes: int
+    """That one takes at most."""
+    write: Callable[[Path, TabularBrdf], None]
+    texts: dict[str, str]
+    """Small files beside them."""
+
+
+def _tables(format: str, recipes: Sequence[Recipe], library: Library) -> _Tables:
+    n, grid = len(recipes), library.grid
+    match format:
+        case "none":
+            return _Tables([], 0, write_brdf, {})
+        case "merl":
+            return _Tables(_numbered(n, ".binary"), merl_bytes(grid.shape), write_brdf, {})
+        case "bsdf":
+            return _Tables(_numbered(n, ".bsdf"), BSDF_BYTES, write_brdf, {})
+        case "zarr":
+            scale = zarr_tables.scale_for(_largest(recipes, library))
+            return _Tables(
+                zarr_tables.chunk_names(n, grid),
+                zarr_tables.chunk_bytes(grid),
+                partial(zarr_tables.write_chunk, scale=scale),
+                {zarr_tables.METADATA: zarr_tables.metadata(n, grid, scale)},
+            )
+        case _:
+            raise OutputError(
+                f"there is no format {format!r}: expected one of {', '.join(FORMATS)}."
+            )
+
+
+def _numbered(n: int, suffix: str) -> list[str]:
     """``000.binary``, ``001.binary``, ... with as many digits as n needs, at least three."""
     digits = max(3, len(str(n - 1)))
     return [f"{i:0{digits}d}{suffix}" for i in range(n)]
 
 
-def _write_table(mixer: Mixer, task: tuple[Path, Recipe]) -> None:
+def _largest(recipes: Sequence[Recipe], library: Library) -> float:
+    """No mix exceeds the largest sample of its ingredients."""
+    names = sorted({name for recipe in recipes for name in recipe.names})
+    return max(float(np.nanmax(library.row(library.index(name)))) for name in names)
+
+
+def _write_text(path: Path, text: str) -> Checksum:
+    with replacing(path) as temporary:
+        temporary.write_text(text)
+    return Checksum.of(path)
+
+
+def _write_table(
+    mixer: Mixer, write: Callable[[Path, TabularBrdf], None], task: tuple[Path, Recipe]
+) -> Checksum:
     path, recipe = task
-    write_brdf(path, mixer.mix(recipe))
-
-
-def _is_same_route(folder: Path, text: str) -> bool:
-    try:
-        return (folder / "recipes.json").read_text() == text
-    except (FileNotFoundError, NotADirectoryError, UnicodeDecodeError):
-        return False
-
-
-def _is_whole(path: Path, size: int) -> bool:
-    return path.is_file() and path.stat().st_size == size
-
-
-def _remove_tables(folder: Path) -> None:
-    """Remove the tables that the folder's recipes.json speaks of: they are another route's."""
-    path = folder / "recipes.json"
-    if not path.exists():
-        return
-    try:
-        document: Any = json.loads(path.read_text())
-        n = len(document["recipes"])
-    except (ValueError, KeyError, TypeError):
-        raise OutputError(
-            f"{path} is in the way: it is no route of halfway. Choose another folder with -o."
-        ) from None
-    for suffix in SUFFIXES.values():
-        for name in table_names(n, suffix):
-            (folder / name).unlink(missing_ok=True)
+    write(path, mixer.mix(recipe))
+    return Checksum.of(path)

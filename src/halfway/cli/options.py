@@ -1,0 +1,124 @@
+"""Options that several commands take, or whose help is long: types of their parameters."""
+
+from enum import StrEnum
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+AsJson = Annotated[bool, typer.Option("--json", help="For programs.")]
+
+
+class SpaceName(StrEnum):
+    anchored = "anchored"
+    paper = "paper"
+    linear = "linear"
+
+
+class Pace(StrEnum):
+    perceptual = "perceptual"
+    uniform = "uniform"
+
+
+class TableFormat(StrEnum):
+    none = "none"
+    merl = "merl"
+    bsdf = "bsdf"
+    zarr = "zarr"
+
+
+class PictureFormat(StrEnum):
+    png = "png"
+    exr = "exr"
+    webp = "webp"
+    jpg = "jpg"
+
+
+class Layout(StrEnum):
+    STRIP = "strip"
+    SHEET = "sheet"
+
+
+class Quality(StrEnum):
+    preview = "preview"
+    normal = "normal"
+    final = "final"
+
+
+# halfway route
+
+Stops = Annotated[
+    list[str], typer.Argument(metavar="[LIB] A B [C...]", help="Two or more materials, by name.")
+]
+Steps = Annotated[int, typer.Option("-n", help="Materials on the route, both ends included.")]
+Ts = Annotated[
+    str, typer.Option("--t", metavar="LIST", help="t instead of -n: 0,0.25,1 or 0.0001:1:0.0001.")
+]
+Space = Annotated[
+    SpaceName,
+    typer.Option(
+        help="anchored: straight in colour, through real materials; paper: the paper's; linear: the ends alone."
+    ),
+]
+Pacing = Annotated[
+    Pace, typer.Option("--pace", help="perceptual: equal visible steps; uniform: the paper's.")
+]
+Detour = Annotated[
+    float,
+    typer.Option(help="Longest anchored way, as a multiple of the direct one; 1 is nearly linear."),
+]
+Components = Annotated[
+    int, typer.Option("-k", help="Scores that span the space; the paper's takes 1 to 6.")
+]
+RouteFolder = Annotated[
+    Path | None, typer.Option("--output", "-o", metavar="DIR", help="[default: A-to-B]")
+]
+Tables = Annotated[
+    TableFormat,
+    typer.Option(
+        "--format",
+        help="Tables to write beside recipes.json: merl and bsdf, a file each; zarr, half precision in one store.",
+    ),
+]
+RouteJson = Annotated[
+    bool, typer.Option("--json", help="Print recipes.json; write files only with -o.")
+]
+
+# halfway render
+
+What = Annotated[
+    list[str],
+    typer.Argument(
+        metavar="WHAT...",
+        help="Files, folders of them, LIB:NAME, names, recipes, recipe files, a route's folder.",
+    ),
+]
+Image = Annotated[
+    Path,
+    typer.Option(
+        "--output",
+        "-o",
+        metavar="IMAGE",
+        help=".png or .exr; .webp, .gif, .mp4 to animate; no suffix: a folder, a picture of each material.",
+    ),
+]
+SceneName = Annotated[str, typer.Option(help="teapot, spheres, sphere or trio.")]
+Environment = Annotated[
+    Path | None, typer.Option("--env", help="Environment (.hdr, .exr) in place of the studio.")
+]
+Mesh = Annotated[Path | None, typer.Option(help="Mesh (.ply, .obj) in place of the object.")]
+Size = Annotated[str, typer.Option(metavar="PIXELS", help="Of one picture: 384, or 640x480.")]
+RenderQuality = Annotated[
+    Quality, typer.Option(help="preview: 16 samples, denoised; normal: 64; final: 256.")
+]
+Spp = Annotated[int | None, typer.Option(help="Samples per pixel, instead of the quality's.")]
+Denoise = Annotated[
+    bool | None, typer.Option(help="Take the noise out, or not, instead of the quality's.")
+]
+Bounces = Annotated[int | None, typer.Option(help="Of light between surfaces; 1 is direct light.")]
+InStrip = Annotated[int, typer.Option("-n", help="Pictures of a longer route in a strip.")]
+Arrangement = Annotated[Layout, typer.Option(help="How several pictures lie in one.")]
+Exposure = Annotated[float, typer.Option(help="In stops.")]
+Seed = Annotated[int, typer.Option(help="The same seed gives the same picture.")]
+Fps = Annotated[int, typer.Option(help="Frames per second of an animation.")]
+Pictures = Annotated[PictureFormat, typer.Option("--format", help="Of the pictures in a folder.")]

@@ -1,0 +1,44 @@
+"""``halfway verify``: whether a folder still holds what was written there."""
+
+import json
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from .console import say, track
+from .options import AsJson
+
+N_SHOWN = 20
+"""Files of a kind that are listed for a person; ``--json`` lists all."""
+
+
+def verify(
+    folder: Annotated[Path, typer.Argument(metavar="DIR", help="As route or render wrote it.")],
+    as_json: AsJson = False,
+) -> None:
+    """Read every file of a folder again and compare it with manifest.json: missing, changed, foreign.
+
+    Exits with 1 when there is any.
+
+    \b
+    halfway verify metal
+    halfway verify frames --json
+    """
+    from halfway.export import verify as verified
+
+    found = verified(folder, track=track)
+    kinds = {"missing": found.missing, "changed": found.changed, "foreign": found.foreign}
+    if as_json:
+        document = {"format": 1, "folder": str(folder), "ok": found.ok, "right": found.n_right}
+        print(json.dumps(document | kinds, indent=1))
+    else:
+        for kind, names in kinds.items():
+            for name in names[:N_SHOWN]:
+                print(f"{kind}  {name}")
+            if len(names) > N_SHOWN:
+                print(f"{kind}  ... and {len(names) - N_SHOWN:,} more")
+        counts = "".join(f", {len(names):,} {kind}" for kind, names in kinds.items() if names)
+        say(f"{folder}: {found.n_right:,} files as they were written{counts}")
+    if not found.ok:
+        raise typer.Exit(1)

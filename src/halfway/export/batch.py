@@ -1,0 +1,156 @@
+"""Many files in one folder, written so that a run may be killed at any moment and the next one goes on.
+
+    with Batch.open(folder, outputs, made=made, n_bytes=n_bytes) as batch:
+        for name, checksum in run(write_one, batch.missing):
+            batch.add(name, checksum)
+
+One run at a time works in a folder. A file of an earlier run is kept where it is made of the same and still has the bytes
+that it had; any other that the folder's manifest names is removed before the rest is written. So a file under its final
+name is whole and right at any time. What no manifest names is somebody else's: it stays, and is never written over.
+"""
+
+import os
+from collections.abc import Container, Generator, Iterable, Mapping
+from contextlib import contextmanager, suppress
+from pathlib import Path
+from typing import Any
+
+from ..errors import OutputError
+from ..files import explaining, require_space, sweep
+from ..tasks import Track, silent
+from .manifest import JOURNAL, Checksum, Entry, Manifest, journal_line, right_files
+
+
+class Batch:
+    """The files of a folder, finished or still to be made; open one with `Batch.open`."""
+
+    def __init__(self, folder: Path, outputs: Mapping[str, Any], finished: Container[str]) -> None:
+        self._folder = folder
+        self._outputs = outputs
+        self.missing = [name for name in outputs if name not in finished]
+        """Names of the files that are still to be made."""
+        self.n_kept = len(outputs) - len(self.missing)
+        """Files that an earlier run finished."""
+
+    @classmethod
+    @contextmanager
+    def open(
+        cls,
+        folder: Path,
+        outputs: Mapping[str, Any],
+        *,
+        made: Mapping[str, Any],
+        n_bytes: int,
+        track: Track = silent,
+    ) -> Generator["Batch"]:
+        """The batch of ``outputs`` in ``folder``; when the block ends and all of them are there, so is manifest.json.
+
+        Parameters
+        ----------
+        folder : path
+            Made where there is none.
+        outputs : mapping
+            What each file is made of, as JSON, by its name in the folder.
+        made : mapping
+            What they have in common, as JSON; ``made["by"]`` is the command that makes them.
+        n_bytes : int
+            How many bytes one of them takes at most.
+
+        Raises
+        ------
+        OutputError
+            When the folder cannot be written or has no room, another run works in it, it holds another command's files,
+            or a file that no manifest names is in the way.
+        FormatError
+            When the folder's manifest cannot be read.
+        """
+        with _folder(folder), _alone(folder):
+            manifest = _prepare(folder, outputs, made, n_bytes, track)
+            yield cls(folder, outputs, manifest.entries)
+            manifest = Manifest.read(folder)
+            if manifest is not None and manifest.finished:
+                manifest.write(folder)
+
+    def add(self, name: str, checksum: Checksum) -> None:
+        """Note that a file is finished."""
+        line = journal_line(name, Entry(self._outputs[name], checksum))
+        path = self._folder / JOURNAL
+        with explaining(path), path.open("a") as journal:
+            journal.write(line)
+
+
+@contextmanager
+def _folder(folder: Path) -> Generator[None]:
+    """Make the folder; remove it again when nothing came of it."""
+    with explaining(folder):
+        folder.mkdir(parents=True, exist_ok=True)
+    try:
+        yield
+    except BaseException:
+        with suppress(OSError):
+            folder.rmdir()  # only an empty one goes
+        raise
+
+
+@contextmanager
+def _alone(folder: Path) -> Generator[None]:
+    """Hold the folder's lock, which ends with the process however it ends; without one where the system has none."""
+    try:
+        import fcntl
+    except ImportError:
+        yield
+        return
+    handle = os.open(folder, os.O_RDONLY)
+    try:
+        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        os.close(handle)
+        raise OutputError(
+            f"{folder} is being written by another halfway: wait for it, or choose another folder with -o."
+        ) from None
+    except OSError:  # a file system without locks
+        pass
+    try:
+        yield
+    finally:
+        os.close(handle)
+
+
+def _prepare(
+    folder: Path, outputs: Mapping[str, Any], made: Mapping[str, Any], n_bytes: int, track: Track
+) -> Manifest:
+    """Leave what is right, remove what is not, and write the journal's first lines."""
+    old = Manifest.read(folder) or Manifest(made)
+    _refuse_others(folder, old, outputs, made)
+    sweep(folder)
+    same = old.entries if old.made == made else {}
+    others = {name: entry for name, entry in same.items() if name not in outputs}
+    ours = {name: e for name, e in same.items() if name in outputs and e.of == outputs[name]}
+    right = right_files(folder, ours, track=track)
+    entries = others | {name: ours[name] for name in outputs if name in right}
+    names = frozenset(outputs) | (old.names if old.made == made else frozenset())
+    gone = [path for name in old.names if name not in entries and (path := folder / name).is_file()]
+    n_missing = len(outputs.keys() - right)
+    room = n_missing * n_bytes - sum(path.stat().st_size for path in gone)
+    require_space(folder, room, f"a batch of {n_missing:,} files")
+    for path in gone:
+        with explaining(path):
+            path.unlink()
+    manifest = Manifest(made, names, entries)
+    manifest.write_journal(folder)
+    return manifest
+
+
+def _refuse_others(
+    folder: Path, old: Manifest, outputs: Iterable[str], made: Mapping[str, Any]
+) -> None:
+    if old.made["by"] != made["by"]:
+        raise OutputError(
+            f"{folder} holds what `halfway {old.made['by']}` wrote: choose another folder with -o."
+        )
+    for name in outputs:
+        if name not in old.names and (folder / name).exists():
+            raise OutputError(
+                f"{folder / name} is in the way: no manifest of halfway names it. "
+                "Move it away, or choose another folder with -o."
+            )
