@@ -24,6 +24,7 @@ COMMANDS = [
     "mix",
     "render",
     "report",
+    "reproduce",
     "space",
     "check",
     "convert",

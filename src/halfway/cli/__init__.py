@@ -5,7 +5,21 @@ Commands import what they use when they run, so that ``--help`` is immediate.
 
 import typer
 
-from . import check, console, demo, files, library, mix, render, report, route, space, verify, view
+from . import (
+    check,
+    console,
+    demo,
+    files,
+    library,
+    mix,
+    render,
+    report,
+    reproduce,
+    route,
+    space,
+    verify,
+    view,
+)
 
 app = typer.Typer(
     name="halfway",
@@ -25,6 +39,7 @@ COMMANDS = (
     mix.mix,
     render.render,
     report.report,
+    reproduce.reproduce,
     space.space,
     check.check,
     verify.verify,

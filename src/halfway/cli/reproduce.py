@@ -1,0 +1,40 @@
+"""``halfway reproduce``: the paper's tables and figures on a library, as a page."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from .console import cache_folder, say, track
+
+
+def reproduce(
+    lib: Annotated[str, typer.Argument(metavar="[LIB]")] = "builtin:merl-abc",
+    output: Annotated[
+        Path, typer.Option("--output", "-o", metavar="DIR", help="The folder to write.")
+    ] = Path("paper"),
+    size: Annotated[int, typer.Option(help="Width of one picture, in pixels.")] = 320,
+    spp: Annotated[int, typer.Option(help="Samples per pixel.")] = 64,
+    env: Annotated[
+        Path | None, typer.Option(help="Environment (.hdr, .exr) in place of the studio.")
+    ] = None,
+    mesh: Annotated[
+        Path | None,
+        typer.Option(help="Mesh (.ply, .obj) in place of the three objects of Figure 8."),
+    ] = None,
+) -> None:
+    """Make every table and figure of the paper on a library, on one page beside the paper's numbers.
+
+    \b
+    halfway reproduce merl_nbrdf.zip
+    halfway reproduce merl.brdflib -o paper --env galileo.exr --mesh dragon.ply
+    """
+    from halfway.library import open_library
+    from halfway.paper import reproduce as reproduced
+
+    library = open_library(lib)
+    say(f"Library {library.name}: {library.origin.description}.")
+    reproduced(
+        output, library, size=size, spp=spp, env=env, mesh=mesh, cache=cache_folder(), track=track
+    )  # fmt: skip
+    say(f"{output}: page.html (and page.md), its pictures, and paper.json with every number")

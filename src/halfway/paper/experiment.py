@@ -1,0 +1,146 @@
+"""The paper's runs on any library, and what can be measured of them without a renderer.
+
+The runs are the paper's method throughout: the space of three scores per channel, evenly spaced t. Plain linear
+interpolation and our own space are measured on the same stops.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from jaxtyping import Float64
+
+from ..brdf.image_metrics import appearance, ciede2000_difference, cielab_difference
+from ..errors import LibraryError
+from ..library import BasisImages, Library, Pca
+from ..space import Bench, Route, Space, evaluate, make_space
+from ..space.evaluation import uniform
+from ..tasks import Track, silent
+from .reported import FINE_TS, N_STEPS, RUNS, Run
+
+SPACES = ("paper", "linear", "anchored")
+LEAST_MATERIALS = 6
+"""Two for each of the three runs."""
+
+
+@dataclass(frozen=True)
+class RunFound:
+    """One navigation, measured on the small lit sphere of `halfway.library.BasisImages`."""
+
+    figure: int
+    stops: tuple[str, str]
+    stops_in_paper: tuple[str, str]
+    n_materials: int
+    """Measured materials that carry weight anywhere on the paper's way."""
+    detour: dict[str, float]
+    """Length of the way over the distance of its ends, by space."""
+    jump: dict[str, float]
+    """Largest step over mean step at uniform t, by space."""
+
+
+@dataclass(frozen=True, eq=False)
+class Experiment:
+    """A library, the spaces that are compared on it, and the stops of each of the paper's runs."""
+
+    library: Library
+    pca: Pca
+    bench: Bench
+    spaces: dict[str, Space]
+    stops: dict[int, tuple[str, str]]
+    """By the number of the paper's figure; others stand in for materials that the library lacks."""
+
+    @classmethod
+    def fit(
+        cls, library: Library, *, cache: Path | None = None, track: Track = silent
+    ) -> "Experiment":
+        """The experiment on ``library``; ``cache`` keeps what is dear to fit.
+
+        Raises
+        ------
+        LibraryError
+            With fewer than six materials.
+        """
+        if len(library) < LEAST_MATERIALS:
+            raise LibraryError(
+                f"{library.name} has {len(library)} materials: the paper's three runs need at least {LEAST_MATERIALS}."
+            )
+        bench = Bench.fit(library, cache=cache, track=track)
+        return cls(
+            library,
+            Pca.fit(library, cache=cache, track=track),
+            bench,
+            {name: make_space(name, library, cache=cache, track=track) for name in SPACES},
+            choose_stops(bench.pacing),
+        )
+
+    def route(self, run: Run, space: str = "paper") -> Route:
+        """The way of a run in one of the spaces."""
+        return Route.through(self.spaces[space], self.stops[run.figure])
+
+    def measure(self, run: Run) -> RunFound:
+        """How direct and how even a run is in each space."""
+        stops = self.stops[run.figure]
+        pair = np.array([[self.library.index(stop) for stop in stops]])
+        found = {
+            name: evaluate(space, self.bench, pair, paces={"uniform": uniform})
+            for name, space in self.spaces.items()
+        }
+        return RunFound(
+            run.figure,
+            stops,
+            run.stops,
+            int(self.route(run).weights.any(axis=(0, 1)).sum()),
+            {name: float(each.detour[0]) for name, each in found.items()},
+            {name: float(each.jump["uniform"][0]) for name, each in found.items()},
+        )
+
+    def evenly_seen(self, run: Run, n: int) -> tuple[float, ...]:
+        """``n`` of the paper's fine list of t, from 0, one nth of the visible way after each other; 1 is not reached."""
+        way = np.append(0.0, np.cumsum(self._steps(run, FINE_TS)))
+        at = np.searchsorted(way, way[-1] * np.arange(n) / n)
+        return tuple(FINE_TS[at].tolist())
+
+    def largest_steps(self, run: Run) -> dict[str, float]:
+        """The largest visible step (CIEDE2000) with 51 materials, and with the paper's fine list of t."""
+        coarse = self._steps(run, np.linspace(0, 1, N_STEPS))
+        return {"51": float(coarse.max()), "fine": float(self._steps(run, FINE_TS).max())}
+
+    def _steps(self, run: Run, ts: np.ndarray) -> Float64[np.ndarray, " n_steps"]:
+        few = BasisImages(
+            self.bench.pacing.names, self.bench.pacing.scene, self.bench.pacing.planes[..., ::16]
+        )
+        looks = appearance(few.mix(self.route(run).at(ts)))
+        return np.asarray(ciede2000_difference(looks[:-1], looks[1:]), np.float64)
+
+
+def largest_share_after(eigenvalues: Float64[np.ndarray, "3 N"], n: int) -> float:
+    """The largest share that an eigenvalue after the first ``n`` has of the sum of its channel."""
+    shares = eigenvalues / eigenvalues.sum(axis=1, keepdims=True)
+    return float(shares[:, n:].max(initial=0.0))
+
+
+def n_components_below(eigenvalues: Float64[np.ndarray, "3 N"], share: float) -> int:
+    """Components until every further eigenvalue is below ``share`` of the sum of its channel."""
+    shares = eigenvalues / eigenvalues.sum(axis=1, keepdims=True)
+    return int((shares >= share).sum(axis=1).max())
+
+
+def choose_stops(images: BasisImages) -> dict[int, tuple[str, str]]:
+    """The paper's stops; where a library lacks one, the two materials that look farthest apart of those not yet taken."""
+    known = {run.figure: run.stops for run in RUNS if set(run.stops) <= set(images.names)}
+    taken = {name for stops in known.values() for name in stops}
+    free = [name for name in images.names if name not in taken]
+    for run in RUNS:
+        if run.figure not in known:
+            known[run.figure] = _farthest(images, free)
+            free = [name for name in free if name not in known[run.figure]]
+    return known
+
+
+def _farthest(images: BasisImages, names: Sequence[str]) -> tuple[str, str]:
+    at = [images.names.index(name) for name in names]
+    looks = appearance(images.images[at, ::16])
+    apart = np.array([cielab_difference(looks, one) for one in looks])
+    i, j = sorted(divmod(int(apart.argmax()), len(names)))
+    return names[i], names[j]
