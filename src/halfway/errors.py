@@ -8,6 +8,9 @@
     |  `- OutsideHullError   the place is not between the materials
     |- RenderError       a picture cannot be made here
     |- FetchError        a data set cannot be downloaded, or is not what it should be
+    |- RemoteError       storage on another machine cannot be read or written
+    |- ClusterError      a cluster cannot be reached, is not fit for this, or was lost
+    |- MissingExtraError an optional package is not installed
     `- OutputError       a result cannot be written
 
 Every message is one line: which thing, what is wrong with numbers, what was expected, what to do.
@@ -44,6 +47,24 @@ class RenderError(HalfwayError):
 
 class FetchError(HalfwayError):
     """A data set cannot be downloaded, or what came is not what was expected."""
+
+
+class RemoteError(HalfwayError):
+    """Storage on another machine cannot be reached, or refuses what it is asked for."""
+
+
+class ClusterError(HalfwayError):
+    """A cluster cannot be reached, its workers are not fit for this, or too many of them died."""
+
+
+class MissingExtraError(HalfwayError):
+    """A package that only some uses need is not installed; the message says how to get it."""
+
+    def __init__(self, what: str, package: str, extra: str) -> None:
+        super().__init__(
+            f"{what} needs the package {package}, which is not installed: expected the extra {extra!r}. "
+            f'Install it with `pip install "halfway[{extra}]"`.'
+        )
 
 
 class OutputError(HalfwayError):

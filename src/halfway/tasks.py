@@ -1,14 +1,18 @@
 """One way to do many things at once: ``run(f, tasks)``.
 
-Tasks are pure functions of small arguments (paths, column ranges); results come back in the order of the tasks, so a
-sum over them does not depend on who finished first. BLAS runs at one thread inside: two threads per task on a
-busy machine were 10 to 20 times slower than one.
+Tasks are pure functions of small arguments (paths, column ranges, recipes); results come back in the order of the
+tasks, so a sum over them does not depend on who finished first. An `Engine` says where they run: `Threads` of this
+process by default, or a `halfway.cluster.Cluster`. The bytes of the results are the same.
+
+BLAS runs at one thread inside a task: two threads per task on a busy machine were 10 to 20 times slower than one.
 """
 
 import os
+from abc import ABC, abstractmethod
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
+from dataclasses import dataclass
 from typing import Protocol, TypeVar, runtime_checkable
 
 from threadpoolctl import threadpool_limits
@@ -29,23 +33,50 @@ def silent(items: Iterable[R], label: str, total: int) -> Iterable[R]:  # noqa: 
     return items
 
 
-def run(
-    f: Callable[[T], R], tasks: Sequence[T], *, label: str = "", track: Track = silent
-) -> Iterator[R]:
-    """``f`` of every task, in order, on a pool of threads; at most a few results wait at any time."""
-    yield from track(_run(f, tasks), label, len(tasks))
+class Engine(ABC):
+    """Where tasks run."""
+
+    @abstractmethod
+    def map(self, f: Callable[[T], R], tasks: Sequence[T]) -> Iterator[R]:
+        """``f`` of every task, in order; at most a few results wait at any time."""
 
 
-def _run(f: Callable[[T], R], tasks: Sequence[T]) -> Iterator[R]:
-    n_workers = os.cpu_count() or 1
-    waiting: deque[Future[R]] = deque()
-    with threadpool_limits(1, "blas"), ThreadPoolExecutor(n_workers) as pool:
-        try:
-            for task in tasks:
-                waiting.append(pool.submit(f, task))
-                if len(waiting) > 2 * n_workers:
+@dataclass(frozen=True)
+class Threads(Engine):
+    """A pool of threads of this process, one per core unless told otherwise."""
+
+    n_threads: int = 0
+
+    def map(self, f: Callable[[T], R], tasks: Sequence[T]) -> Iterator[R]:
+        """``f`` of every task, in order; one or two more results are held than there are threads."""
+        n_threads = self.n_threads or os.cpu_count() or 1
+        waiting: deque[Future[R]] = deque()
+        with threadpool_limits(1, "blas"), ThreadPoolExecutor(n_threads) as pool:
+            try:
+                for task in tasks:
+                    waiting.append(pool.submit(f, task))
+                    if len(waiting) > n_threads + 1:
+                        yield waiting.popleft().result()
+                while waiting:
                     yield waiting.popleft().result()
-            while waiting:
-                yield waiting.popleft().result()
-        finally:
-            pool.shutdown(wait=True, cancel_futures=True)
+            finally:
+                pool.shutdown(wait=True, cancel_futures=True)
+
+
+THREADS = Threads()
+
+
+def run(
+    f: Callable[[T], R],
+    tasks: Sequence[T],
+    *,
+    label: str = "",
+    track: Track = silent,
+    engine: Engine = THREADS,
+) -> Iterator[R]:
+    """``f`` of every task, in order, on an engine.
+
+    On a cluster ``f`` and the tasks are pickled: ``f`` is a function of a module, or a `functools.partial` of one whose
+    arguments it shares between the tasks, and each worker gets those once.
+    """
+    yield from track(engine.map(f, tasks), label, len(tasks))
