@@ -169,8 +169,8 @@ WRONG = {
     "integers": (
         encode([w.astype(np.int32) for w in weights()]),
         (
-            "gold.h5 has a weight a/kernel:0 of 126 int32 values: a neural BRDF has a few hundred floats. "
-            "It is a network for something else."
+            "gold.h5 is no HDF5 as Keras writes it (an array holds something else than little-endian float32 or float64): "
+            "expected the weights of a neural BRDF. Compare it with the original download."
         ),
     ),
 }
@@ -190,7 +190,7 @@ def test_a_wrong_file_gets_its_own_line(wrong, message):
 )
 def test_a_damaged_file_is_one_line(damaged):
     with pytest.raises(
-        FormatError, match=r"^gold\.h5 is a damaged HDF5 file \(.*\): expected"
+        FormatError, match=r"^gold\.h5 is no HDF5 as Keras writes it \(.*\): expected"
     ) as error:
         read_nbrdf(damaged, name="gold.h5")
     assert "\n" not in str(error.value)

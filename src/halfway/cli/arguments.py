@@ -111,7 +111,9 @@ def _recipe_document(what: str) -> dict[str, Any] | None:
     if path.suffix != ".json":
         return None
     document = read_json(path)
-    recipes = document.get("recipes") if isinstance(document, dict) else None
+    if not isinstance(document, dict):
+        raise ArgumentError(f"{path} is no recipe: expected a JSON object with weights.")
+    recipes = document.get("recipes")
     if recipes is None:
         return document
     if not index.isdecimal() or int(index) >= len(recipes):

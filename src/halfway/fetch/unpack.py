@@ -3,11 +3,11 @@
 import shutil
 import stat
 import zipfile
-import zlib
 from pathlib import Path, PurePosixPath, PureWindowsPath
 
 from ..errors import FetchError
 from ..files import replacing, require_space
+from ..formats.sources import UNREADABLE
 
 MAX_RATIO = 100
 """Bytes of a member for each byte in the zip, at most; tables compress to a half or so."""
@@ -37,7 +37,7 @@ def unpack(archive: Path, folder: Path) -> list[Path]:
             require_space(folder, sum(info.file_size for info in members), archive.name)
             for info, path in zip(members, paths, strict=True):
                 _write(opened, info, path)
-    except (zipfile.BadZipFile, zlib.error, EOFError, NotImplementedError, RuntimeError) as error:
+    except UNREADABLE as error:
         raise FetchError(
             f"{archive.name} is a damaged zip ({str(error)[:100]}): delete it and fetch it again."
         ) from error

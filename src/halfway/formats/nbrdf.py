@@ -13,23 +13,23 @@ Source: A. Sztrajman, G. Rainer, T. Ritschel, T. Weyrich, "Neural BRDF Represent
 Computer Graphics Forum 40(6), 2021, section 3.
 """
 
-import io
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import ClassVar
 
-import h5py
 import numpy as np
 
 from .._types import Angle
 from ..brdf import IsotropicModel
 from ..errors import FormatError
 from .content import HDF5, description
+from .hdf5 import Hdf5Error, Hdf5Object, read_hdf5
 from .sources import FileSource, Source
 
-LARGEST_BYTES = 1_000_000
+LARGEST_BYTES = 200_000
 """A network takes 19 kB; a file of more than this is something else, and is not read."""
 
+_MOST_NAMES = 16
 _SHAPES = ((6, 21), (21,), (21, 21), (21,), (21, 3), (3,))
 
 
@@ -98,11 +98,10 @@ def _decode(content: bytes, label: str) -> NeuralBrdf:
         what = description(content[:512]) or "is no HDF5 file"
         raise FormatError(f"{label} {what}: expected the Keras weights of a neural BRDF (HDF5).")
     try:
-        with h5py.File(io.BytesIO(content)) as file:
-            weights = [weight for layer in _layers(file, label) for weight in layer]
-    except (OSError, RuntimeError, ValueError, LookupError, TypeError, AttributeError, ArithmeticError, MemoryError) as error:  # fmt: skip
+        weights = [weight for layer in _layers(read_hdf5(content), label) for weight in layer]
+    except Hdf5Error as error:
         raise FormatError(
-            f"{label} is a damaged HDF5 file ({' '.join(str(error).split())[:100]}): expected the Keras weights of a neural BRDF. "
+            f"{label} is no HDF5 as Keras writes it ({error}): expected the weights of a neural BRDF. "
             "Compare it with the original download."
         ) from error
     shapes = tuple(weight.shape for weight in weights)
@@ -118,31 +117,22 @@ def _decode(content: bytes, label: str) -> NeuralBrdf:
     return NeuralBrdf(*weights)
 
 
-def _layers(file: Any, label: str) -> list[list[np.ndarray]]:
+def _layers(root: Hdf5Object, label: str) -> list[list[np.ndarray]]:
     """The weights of each layer that has some, in the order in which the network applies them."""
-    if "layer_names" not in file.attrs:
-        raise FormatError(
-            f"{label} is an HDF5 file without layer_names: expected the Keras weights of a neural BRDF."
-        )
+    layers = _names(root, "layer_names", label)
     return [
-        [_weight(file[layer], weight, label) for weight in _names(file[layer], "weight_names")]
-        for layer in _names(file, "layer_names")
-    ]
+        [np.asarray(root[layer][weight].array(), np.float32) for weight in _names(root[layer], "weight_names", label)]
+        for layer in layers
+    ]  # fmt: skip
 
 
-def _names(group: Any, attribute: str) -> list[str]:
-    names = np.asarray(group.attrs[attribute]).tolist()
-    return [name.decode() if isinstance(name, bytes) else str(name) for name in names]
-
-
-def _weight(layer: Any, name: str, label: str) -> np.ndarray:
-    weight = layer[name]
-    if weight.size > LARGEST_BYTES or weight.dtype.kind != "f":
+def _names(group: Hdf5Object, attribute: str, label: str) -> list[str]:
+    names = group.strings(attribute, most=_MOST_NAMES)
+    if names is None:
         raise FormatError(
-            f"{label} has a weight {name} of {weight.size:,} {weight.dtype} values: a neural BRDF has a few "
-            "hundred floats. It is a network for something else."
+            f"{label} is an HDF5 file without {attribute}: expected the Keras weights of a neural BRDF."
         )
-    return np.asarray(weight, np.float32)
+    return names
 
 
 def _listed(shapes: tuple[tuple[int, ...], ...]) -> str:

@@ -2,6 +2,7 @@
 
 import hashlib
 import lzma
+import struct
 import zipfile
 import zlib
 from abc import ABC, abstractmethod
@@ -14,15 +15,18 @@ from typing import cast
 
 from ..errors import FormatError
 
-_UNREADABLE = (
+UNREADABLE = (
     OSError,
     EOFError,
     RuntimeError,  # a member with a password
     NotImplementedError,  # a compression that Python does not know
+    ValueError,  # a member's name in no alphabet, or a place before the file's start
+    struct.error,
     zipfile.BadZipFile,
     zlib.error,
     lzma.LZMAError,
 )
+"""What `zipfile` raises of a file that is no zip, or a damaged one."""
 
 
 class Source(ABC):
@@ -63,7 +67,7 @@ class Source(ABC):
         try:
             with self._open() as stream:
                 yield stream
-        except _UNREADABLE as error:
+        except UNREADABLE as error:
             reason = (error.strerror if isinstance(error, OSError) else None) or error
             raise FormatError(
                 f"{self.label} cannot be read ({reason}): see {self.location}."
@@ -156,7 +160,7 @@ def members(archive: Path) -> list[MemberSource]:
     """
     try:
         opened = zipfile.ZipFile(archive)
-    except _UNREADABLE as error:
+    except UNREADABLE as error:
         raise FormatError(
             f"{archive.name} is a damaged zip ({str(error)[:100]}): compare it with the original download."
         ) from error

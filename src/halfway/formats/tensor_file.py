@@ -34,6 +34,7 @@ _CODES = {dtype: code for code, dtype in _DTYPES.items()}
 _ALIGNMENT = 8
 _MAX_FIELDS = 1024
 _MAX_DIMENSIONS = 8
+_MAX_NAME = 64
 
 
 class _Field(NamedTuple):
@@ -153,6 +154,11 @@ class _Header:
     def field(self) -> _Field:
         (length,) = self._unpack("<H")
         field_name = self._take(length).decode("utf-8", errors="backslashreplace")
+        if length > _MAX_NAME:
+            raise FormatError(
+                f"{self._name} names a field by {length:,} bytes ({field_name[:20]!r}...): at most {_MAX_NAME} are read. "
+                "It is damaged."
+            )
         n_dimensions, code, offset = self._unpack("<HBQ")
         if n_dimensions > _MAX_DIMENSIONS:
             raise FormatError(

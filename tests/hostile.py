@@ -1,0 +1,200 @@
+"""A valid file of every kind that is read, and its reader: what `test_fuzz` and `fuzz` spoil and try.
+
+Whatever the bytes, a reader gives what it reads or raises a `HalfwayError` of one line.
+"""
+
+import io
+import json
+import zipfile
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import h5py
+import numpy as np
+
+from halfway import Brdf, Grid, TabularBrdf
+from halfway.fetch.unpack import unpack
+from halfway.formats import find_brdfs, read_brdf, write_brdf
+from halfway.formats.tensor_file import write_tensor_file
+from halfway.library import StoredLibrary, build_library
+
+UP = np.array([0.0, 0.0, 1.0])
+AWRY = np.array([[0.6, 0.0, 0.8], [0.0, -0.28, 0.96]])
+
+
+class Subject(NamedTuple):
+    """A kind of file."""
+
+    valid: bytes
+    read: Callable[[bytes, Path], None]
+    """Puts the bytes into the folder and reads all of them."""
+
+
+def subjects(folder: Path) -> dict[str, Subject]:
+    """Every kind of file, by name; ``folder`` must stay as long as they are used."""
+    (folder / "tables").mkdir(parents=True, exist_ok=True)
+    for i, name in enumerate(("clay", "chalk")):
+        write_brdf(folder / "tables" / f"{name}.binary", _table(0.1 * (i + 1)))
+    path = folder / "tiny.brdflib"
+    build_library([folder / "tables"], path)
+    weights = {"clay": 0.25, "chalk": 0.75}
+    recipe = {"library": str(path), "weights": weights}
+    route = {
+        "format": 1,
+        "library": str(path),
+        "stops": ["clay", "chalk"],
+        "recipes": [{"t": 0.5, "weights": dict.fromkeys("rgb", weights)}],
+    }
+    return {
+        "merl": Subject((folder / "tables" / "clay.binary").read_bytes(), _read_brdf),
+        "rgl": Subject(_tensors(folder, _rgl()), _read_brdf),
+        "rgl-spectral": Subject(_tensors(folder, _spectral()), _read_brdf),
+        "nbrdf": Subject(_nbrdf(), _read_brdf),
+        "zip": Subject(_zip(folder), _find),
+        "unpack": Subject(_zip(folder), _unpack),
+        "library": Subject((path / "library.json").read_bytes(), _library_with("library.json", path)),
+        "tables": Subject((path / "tables.npy").read_bytes(), _library_with("tables.npy", path)),
+        "recipe": Subject(json.dumps(recipe).encode(), _materials("recipe.json")),
+        "route": Subject(json.dumps(route).encode(), _materials("recipes.json")),
+        "words": Subject(b"clay=0.25, chalk=0.75\n0,0.25,1:2:0.1\n1,-2e3", _words(str(path))),
+    }  # fmt: skip
+
+
+def _table(value: float) -> TabularBrdf:
+    grid = Grid.merl(4, 3, 4)
+    return TabularBrdf(np.full((3, *grid.shape), value, np.float32), grid, name="clay")
+
+
+# Readers
+
+
+def _read_brdf(content: bytes, folder: Path) -> None:
+    (folder / "spoilt").write_bytes(content)
+    _use(read_brdf(folder / "spoilt"))
+
+
+def _find(content: bytes, folder: Path) -> None:
+    (folder / "spoilt").write_bytes(content)
+    found, _ = find_brdfs([folder / "spoilt"])
+    for item in found:
+        _use(item.load())
+
+
+def _unpack(content: bytes, folder: Path) -> None:
+    (folder / "spoilt").write_bytes(content)
+    inside = folder / "inside"
+    for path in unpack(folder / "spoilt", inside):
+        assert path.resolve().is_relative_to(inside.resolve())
+
+
+def _library_with(name: str, path: Path) -> Callable[[bytes, Path], None]:
+    """Reads a library of which one file is spoilt."""
+    valid = {file.name: file.read_bytes() for file in path.iterdir()}
+
+    def read(content: bytes, folder: Path) -> None:
+        place = folder / "spoilt.brdflib"
+        place.mkdir(exist_ok=True)
+        for file, bytes_ in {**valid, name: content}.items():
+            (place / file).write_bytes(bytes_)
+        library = StoredLibrary(place)
+        for i in range(len(library)):
+            assert library.row(i).shape == (3, library.grid.size)
+        for block in library.blocks():
+            library.columns(block)
+
+    return read
+
+
+def _materials(name: str) -> Callable[[bytes, Path], None]:
+    def read(content: bytes, folder: Path) -> None:
+        from halfway.cli.materials import to_materials
+
+        (folder / name).write_bytes(content)
+        for material in to_materials([str(folder / name)]):
+            _use(material.load())
+
+    return read
+
+
+def _words(library: str) -> Callable[[bytes, Path], None]:
+    """What a person types: a recipe, a list of t and a point, one a line."""
+
+    def read(content: bytes, folder: Path) -> None:
+        del folder
+        from halfway.cli.arguments import parse_point, parse_t
+        from halfway.space import Recipe
+
+        recipe, t, point, *_ = [*content[:200].decode(errors="replace").split("\n"), "", ""]
+        Recipe.from_text(library, recipe)
+        assert len(parse_t(t)) <= 10_000_000
+        parse_point(point)
+
+    return read
+
+
+def _use(brdf: Brdf) -> None:
+    assert brdf.eval(UP, UP).shape == (3,)
+    assert brdf.eval(AWRY, AWRY[::-1]).shape == (2, 3)
+
+
+# Valid files
+
+
+def _nodes(*shape: int) -> np.ndarray:
+    return np.linspace(0.5, 1, int(np.prod(shape)), dtype=np.float32).reshape(shape)
+
+
+def _rgl() -> dict[str, np.ndarray]:
+    return {
+        "description": np.frombuffer(b"clay", np.uint8),
+        "phi_i": np.zeros(1, np.float32),
+        "theta_i": np.array([0, 1.5], np.float32),
+        "ndf": _nodes(2, 3),
+        "sigma": _nodes(2, 3),
+        "vndf": _nodes(1, 2, 3, 4),
+        "rgb": _nodes(1, 2, 3, 3, 3),
+        "jacobian": np.ones(1, np.uint8),
+    }
+
+
+def _spectral() -> dict[str, np.ndarray]:
+    """Spectral and anisotropic."""
+    fields = _rgl()
+    del fields["rgb"]
+    return {
+        **fields,
+        "phi_i": np.array([-3.1, 0, 3.1], np.float32),
+        "vndf": _nodes(3, 2, 3, 4),
+        "wavelengths": np.array([400, 550, 700, 720], np.float32),
+        "spectra": _nodes(3, 2, 4, 3, 3),
+    }
+
+
+def _tensors(folder: Path, fields: dict[str, np.ndarray]) -> bytes:
+    write_tensor_file(folder / "clay.bsdf", fields)
+    return (folder / "clay.bsdf").read_bytes()
+
+
+def _nbrdf() -> bytes:
+    rng = np.random.default_rng(0)
+    content = io.BytesIO()
+    with h5py.File(content, "w") as file:
+        names = [b"dense", b"dense_1", b"dense_2"]
+        file.attrs["layer_names"] = names
+        for name, (n_in, n_out) in zip(names, [(6, 21), (21, 21), (21, 3)], strict=True):
+            group: Any = file.create_group(name.decode())
+            group.attrs["weight_names"] = [name + b"/kernel:0", name + b"/bias:0"]
+            inner = group.create_group(name.decode())
+            inner["kernel:0"] = rng.normal(size=(n_in, n_out)).astype(np.float32)
+            inner["bias:0"] = np.zeros(n_out, np.float32)
+    return content.getvalue()
+
+
+def _zip(folder: Path) -> bytes:
+    content = io.BytesIO()
+    with zipfile.ZipFile(content, "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr("brdfs/clay.binary", (folder / "tables" / "clay.binary").read_bytes())
+        archive.writestr("chalk.bsdf", _tensors(folder, _rgl()))
+        archive.writestr("slate.h5", _nbrdf())
+    return content.getvalue()
