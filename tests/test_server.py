@@ -138,6 +138,25 @@ def test_a_place_outside_is_answered_by_the_nearest_mix(client: TestClient) -> N
     assert sum(view["recipe"]["weights"].values()) == pytest.approx(1)
 
 
+def test_outside_the_paper_s_hulls_each_channel_takes_its_nearest_mix(
+    client: TestClient, small_library: ProceduralLibrary
+) -> None:
+    embeddings = client.get("/api/spaces/paper").json()["embeddings"]
+    corner = [np.array(embedding["points"])[4] for embedding in embeddings]
+    asked = [*corner[0], *corner[1], *(corner[2] + 1e3)]
+    found = client.post("/api/place", json={"space": "paper", "point": asked}).json()
+    assert not found["inside"]
+    weights = found["recipe"]["weights"]
+    assert weights["r"] == {"material-4": 1.0}
+    assert weights["g"] == {"material-4": 1.0}
+    assert sum(weights["b"].values()) == pytest.approx(1)
+    # What is reached is the mix of the points.
+    blue = np.array(embeddings[2]["points"])
+    names = list(small_library.names)
+    mixed = sum(w * blue[names.index(name)] for name, w in weights["b"].items())
+    assert_allclose(found["point"][6:], mixed, rtol=1e-9)
+
+
 def test_the_linear_space_has_no_places(client: TestClient) -> None:
     answer = client.post("/api/place", json={"space": "linear", "point": [0, 0, 0]})
     assert answer.status_code == 400

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from halfway.brdf import TabularBrdf
+from halfway.brdf import TabularBrdf, directional_albedo
 from halfway.halfdiff import MERL, Grid, HalfDiff, from_half_diff, to_half_diff
 from halfway.library import Pca, ProceduralLibrary
 from halfway.render.pictures import to_srgb
@@ -27,6 +27,7 @@ def golden() -> dict[str, Any]:
         "halfdiff": _half_diff(),
         "grid": _grid(),
         "lookup": _lookup(),
+        "albedo": _albedo(),
         "recipe": _recipe(),
         "colour": _colour(),
     }
@@ -107,6 +108,14 @@ def _lookup() -> dict[str, Any]:
         "wo": wo.tolist(),
         "values": values.tolist(),
     }
+
+
+def _albedo() -> dict[str, Any]:
+    """Of the table of ``lookup``; few nodes, which both sides place alike."""
+    nodes = {"n_theta_h": 40, "n_phi_h": 12}
+    theta_i = np.radians([0.0, 30.0, 60.0, 88.0])
+    values = directional_albedo(_table(), theta_i, **nodes)
+    return {**nodes, "theta_i": theta_i.tolist(), "values": values.tolist()}
 
 
 def _recipe() -> dict[str, Any]:

@@ -2,7 +2,7 @@
 
 import type { Context } from "./context";
 import { toHash } from "./permalink";
-import type { State } from "./state";
+import { comparedStop, type State } from "./state";
 
 /** The route through the stops. */
 export function fetchRoutes({ client, store, actions, signal }: Context): void {
@@ -20,8 +20,10 @@ export function fetchOtherRoutes({ client, store, actions, signal }: Context): v
     store,
     signal,
     ({ compare, pace, stops }) => [compare, pace, stops] as const,
-    async ([compare, pace, stops], running) =>
-      actions.setOtherRoute(compare === "" ? null : await client.route(compare, pace, stops, running)),
+    async ([compare, pace, stops], running) => {
+      if (compare === "" || comparedStop(compare) !== null) actions.compareWith(compare);
+      else actions.setOtherRoute(await client.route(compare, pace, stops, running));
+    },
   );
 }
 

@@ -10,7 +10,7 @@ import type { Context, Options } from "./context";
 import { el } from "./dom";
 import { fetchOtherRoutes, fetchPlaces, fetchRoutes, fetchSpaces, keepLink, play } from "./follow";
 import { listenToKeys } from "./keys";
-import { brdfPanel } from "./panels/brdfPanel";
+import { brdfPanel } from "./panels/brdf/panel";
 import { head } from "./panels/head";
 import { materialView } from "./panels/materialView";
 import { recipePanel } from "./panels/recipePanel";

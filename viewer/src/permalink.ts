@@ -13,7 +13,8 @@ export function toHash(linked: Linked): string {
     t: short(linked.t, 4),
     point: (linked.point ?? []).map((x) => String(Number(x.toPrecision(7)))).join(","),
     compare: linked.compare,
-    shape: linked.shape,
+    // A mesh stays with the person who has its file.
+    shape: linked.shape === "mesh" ? "" : linked.shape,
     light: linked.light,
     exposure: short(linked.exposure, 2),
     orbit: [azimuth, elevation, zoom].map((x) => short(x, 3)).join(","),
@@ -48,10 +49,10 @@ export function fromHash(hash: string, library: LibrarySummary): Partial<Linked>
     stops: distinct.length >= 2 ? distinct : undefined,
     t: number("t", 0, 1),
     point: point.length && point.every(Number.isFinite) ? point : undefined,
-    compare: oneOf(
-      "compare",
-      library.spaces.map(({ name }) => name),
-    ),
+    compare: oneOf("compare", [
+      ...library.spaces.map(({ name }) => name),
+      ...library.materials.map(({ name }) => `stop:${name}`),
+    ]),
     shape: oneOf("shape", ["sphere", "teapot"] as const),
     light: oneOf("light", LIGHTS),
     exposure: number("exposure", -4, 4),

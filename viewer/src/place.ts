@@ -32,6 +32,16 @@ export function withCoordinates(
   return [...point];
 }
 
+/** The coordinates of one embedding in a point. */
+export function coordinatesIn(view: SpaceView, point: readonly number[], embedding: string): number[] {
+  let start = 0;
+  for (const { name, axes } of view.embeddings) {
+    if (name === embedding) return point.slice(start, start + axes.length);
+    start += axes.length;
+  }
+  return [];
+}
+
 /** Has the space places between its routes? */
 export function hasPlaces(view: SpaceView | null): boolean {
   return view !== null && view.name !== "linear";

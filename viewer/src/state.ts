@@ -1,5 +1,7 @@
 // What the page shows, and the acts that change it.
 
+import type { BufferGeometry } from "three";
+
 import type { LibrarySummary, PlaceView, RouteView, SpaceView } from "./api/schema";
 import { fromDocument } from "./place";
 import { type Ingredient, recipeAt } from "./recipe";
@@ -21,6 +23,8 @@ export interface State {
   readonly goal: number | null;
   readonly playing: boolean;
   readonly shape: Shape;
+  /** A person's own object, and its file's name. */
+  readonly mesh: { readonly name: string; readonly geometry: BufferGeometry } | null;
   readonly light: Light;
   readonly exposure: number;
   readonly orbit: Orbit;
@@ -38,7 +42,7 @@ export interface State {
   readonly point: readonly number[] | null;
   /** What the server says of it. */
   readonly place: PlaceView | null;
-  /** The space whose way through the same stops is shown beside; "" for none. */
+  /** What is shown beside: "" nothing, `stop:NAME` a material, else a space, whose way through the same stops it is. */
   readonly compare: string;
   readonly otherRoute: RouteView | null;
   readonly otherRecipe: readonly Ingredient[];
@@ -52,7 +56,7 @@ export interface State {
 }
 
 /** What undo goes back to. */
-type Way = Pick<State, "space" | "pace" | "stops">;
+type Way = Pick<State, "space" | "pace" | "stops" | "point">;
 
 /** What a link carries. */
 export type Linked = Pick<
@@ -61,6 +65,9 @@ export type Linked = Pick<
 >;
 
 const MAX_PAST = 100;
+/** Moves of a free place that follow each other so soon, in milliseconds, are one act. */
+const ONE_ACT = 700;
+const STOP = "stop:";
 export const EXPOSURES = [-4, 4] as const;
 
 export function createState(library: LibrarySummary, linked: Partial<Linked>, theme: Theme): Store<State> {
@@ -71,6 +78,7 @@ export function createState(library: LibrarySummary, linked: Partial<Linked>, th
     pace: library.paces[0] ?? "",
     t: 0.5,
     shape: "sphere",
+    mesh: null,
     light: "studio",
     exposure: 0,
     orbit: HOME,
@@ -99,11 +107,19 @@ export function createState(library: LibrarySummary, linked: Partial<Linked>, th
   });
 }
 
+/** The material that is compared with; null when it is a space, or nothing. */
+export function comparedStop(compare: string): string | null {
+  return compare.startsWith(STOP) ? compare.slice(STOP.length) : null;
+}
+
 export class Actions {
+  private lastMove = Number.NEGATIVE_INFINITY;
+
   constructor(private readonly store: Store<State>) {}
 
   setT = (t: number): void => {
-    const { route, otherRoute } = this.store.get();
+    const { route, otherRoute, point } = this.store.get();
+    if (point !== null) this.remember();
     const clamped = Math.min(Math.max(t, 0), 1);
     this.store.set({
       t: clamped,
@@ -123,16 +139,26 @@ export class Actions {
   };
 
   /** Leave the route for a place of the space. */
-  goTo = (point: readonly number[]): void => this.store.set({ point, playing: false });
+  goTo = (point: readonly number[]): void => {
+    const now = performance.now();
+    if (now - this.lastMove > ONE_ACT) this.remember();
+    this.lastMove = now;
+    this.store.set({ point, playing: false });
+  };
+
+  compareWith = (compare: string): void => {
+    const stop = comparedStop(compare);
+    const otherRecipe: Ingredient[] = stop === null ? [] : [{ name: stop, weight: [1, 1, 1] }];
+    this.store.set({ compare, otherRoute: null, otherRecipe });
+  };
 
   setPlace = (place: PlaceView): void => {
     if (this.store.get().point !== null)
       this.store.set({ place, recipe: fromDocument(place.recipe), problem: null });
   };
 
-  setOtherRoute = (otherRoute: RouteView | null): void => {
-    const { t } = this.store.get();
-    this.store.set({ otherRoute, otherRecipe: otherRoute ? recipeAt(otherRoute, t) : [] });
+  setOtherRoute = (otherRoute: RouteView): void => {
+    this.store.set({ otherRoute, otherRecipe: recipeAt(otherRoute, this.store.get().t) });
   };
 
   /** Put a material where the chosen slot is, and choose the other end next. */
@@ -184,17 +210,25 @@ export class Actions {
 
   private go(change: Partial<Way>): void {
     const { past, slot } = this.store.get();
-    const way = { ...this.way(), ...change };
+    const way = { ...this.way(), point: null, ...change };
     this.follow(way, [...past.slice(1 - MAX_PAST), this.way()], [], Math.min(slot, way.stops.length - 1));
   }
 
   private follow(way: Way, past: readonly Way[], future: readonly Way[], slot: number): void {
-    this.store.set({ ...way, past, future, slot, point: null, place: null });
+    const { route, t } = this.store.get();
+    this.lastMove = Number.NEGATIVE_INFINITY;
+    // Back on the same route, its recipe holds; on another one it comes with the answer.
+    const recipe = way.point === null && route ? { recipe: recipeAt(route, t) } : {};
+    this.store.set({ ...way, past, future, slot, place: null, ...recipe });
+  }
+
+  private remember(): void {
+    this.store.set({ past: [...this.store.get().past.slice(1 - MAX_PAST), this.way()], future: [] });
   }
 
   private way(): Way {
-    const { space, pace, stops } = this.store.get();
-    return { space, pace, stops };
+    const { space, pace, stops, point } = this.store.get();
+    return { space, pace, stops, point };
   }
 }
 

@@ -1,6 +1,7 @@
 import { expect, test } from "vitest";
 
 import type { Axis } from "../src/api/schema";
+import { directionalAlbedo } from "../src/brdf/albedo";
 import { alias } from "../src/brdf/alias";
 import { neighbours, toAngle, toPosition } from "../src/brdf/grid";
 import { HALF } from "../src/brdf/half";
@@ -104,4 +105,19 @@ test("the lobe is a density over half vectors", () => {
   }, 0);
   expect(total).toBeCloseTo(1, 9);
   expect(mass.reduce((a, b) => a + b, 0)).toBeCloseTo(1, 9);
+});
+
+test("the directional albedo is Python's", () => {
+  const { n_theta_h, n_phi_h, theta_i, values } = golden<{
+    n_theta_h: number;
+    n_phi_h: number;
+    theta_i: number[];
+    values: [number, number, number][];
+  }>("albedo");
+  theta_i.forEach((angle, i) => {
+    const found = directionalAlbedo(goldenTable(), angle, n_theta_h, n_phi_h);
+    found.forEach((x, c) => {
+      expect(Math.abs(x / values[i]![c]! - 1)).toBeLessThan(1e-6);
+    });
+  });
 });

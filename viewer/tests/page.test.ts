@@ -138,6 +138,35 @@ test("stops change their order", () => {
   expect(store.get().stops).toEqual(["c", "a", "b"]);
 });
 
+test("a free place is one act, which undo takes back and redo brings again", () => {
+  const { store, actions } = page();
+  const { route } = golden<{ route: RouteView }>("recipe");
+  actions.setRoute(route);
+  const onRoute = store.get().recipe;
+  for (const x of [0.1, 0.2, 0.3]) actions.goTo([x]);
+  actions.setPlace({ recipe: { library: "small", weights: { d: 1 } }, point: [0.3], inside: true });
+  expect(store.get().recipe).toEqual([{ name: "d", weight: [1, 1, 1] }]);
+  actions.undo();
+  expect(store.get().point).toBeNull();
+  expect(store.get().recipe).toEqual(onRoute);
+  actions.redo();
+  expect(store.get().point).toEqual([0.3]);
+  actions.setT(0.5);
+  actions.undo();
+  expect(store.get().point).toEqual([0.3]);
+});
+
+test("a stop is compared with as it is, whatever t", () => {
+  const { store, actions } = page();
+  actions.compareWith("stop:c");
+  actions.setT(0.7);
+  expect(store.get().otherRecipe).toEqual([{ name: "c", weight: [1, 1, 1] }]);
+  actions.compareWith("");
+  expect(store.get().otherRecipe).toEqual([]);
+  expect(fromHash("#compare=stop:c", LIBRARY)).toEqual({ compare: "stop:c" });
+  expect(fromHash("#compare=stop:zz", LIBRARY)).toEqual({});
+});
+
 test("a listener hears only of what it chose", () => {
   const store = createStore({ a: 1, b: 1 });
   const heard = vi.fn();

@@ -13,7 +13,7 @@ from threading import Lock
 
 import numpy as np
 
-from ..errors import OutputError, RecipeError, SpaceError
+from ..errors import OutputError, OutsideHullError, RecipeError, SpaceError
 from ..formats import MerlFile, encode_header, write_brdf
 from ..library import BasisImages, Library, Pca
 from ..render.scenes import SCENES
@@ -29,6 +29,8 @@ from ..space import (
     make_space,
     perceptual,
 )
+from ..space.hull import nearest_in_hull
+from ..space.triangulation import Triangulation
 from ..tasks import Track, silent
 from .blocks import Block
 from .embedding import look_at
@@ -137,7 +139,7 @@ class Explorer:
                     raise SpaceError(
                         f"the point has {point.size} coordinates: expected {n_axes} for each channel."
                     )
-                return to_place(space.recipe(point.reshape(3, n_axes)), point, inside=True)
+                return _place_in_each_channel(space, point.reshape(3, n_axes))
             case _:
                 raise SpaceError(
                     f"the space {place.space!r} has no places between its routes: choose another space."
@@ -203,6 +205,28 @@ class Explorer:
             if name not in self._spaces:
                 self._spaces[name] = make_space(name, self.library, cache=self._cache)
             return self._spaces[name]
+
+
+def _place_in_each_channel(space: PaperSpace, point: np.ndarray) -> PlaceView:
+    """The material at a point (3, k) of the paper's space, or the nearest in the channels that are outside their hull."""
+    try:
+        return to_place(space.recipe(point), point.ravel(), inside=True)
+    except OutsideHullError:
+        nearest = np.stack(
+            [_nearest(t, x) for t, x in zip(space.triangulations, point, strict=True)]
+        )
+    reached = np.stack([w @ t.points for w, t in zip(nearest, space.triangulations, strict=True)])
+    recipe = Recipe.from_dense(space.library, space.names, nearest)
+    return to_place(recipe, reached.ravel(), inside=False)
+
+
+def _nearest(triangulation: Triangulation, x: np.ndarray) -> np.ndarray:
+    """Weights at ``x``, or at the nearest point of the hull, each score in units of its spread."""
+    try:
+        return triangulation.weights(x)
+    except OutsideHullError:
+        spread = triangulation.points.std(axis=0)
+        return nearest_in_hull(triangulation.points / spread, x / spread)
 
 
 def to_place(recipe: Recipe, point: np.ndarray, *, inside: bool) -> PlaceView:

@@ -28,9 +28,11 @@ export function evaluate(table: Table, wi: Direction, wo: Direction): Rgb {
   let blue = 0;
   let measured = 0;
   for (let corner = 0; corner < 8; corner++) {
-    const [i, j, k] = [corner & 1, (corner >> 1) & 1, (corner >> 2) & 1] as const;
-    const weight = side(h, i) * side(d, j) * side(p, k);
-    const at = 4 * (((h[i] as number) * axisD.size + (d[j] as number)) * axisP.size + (p[k] as number));
+    const i = corner & 1;
+    const j = (corner >> 1) & 1;
+    const k = corner >> 2;
+    const weight = side(h[2], i) * side(d[2], j) * side(p[2], k);
+    const at = 4 * ((h[i]! * axisD.size + d[j]!) * axisP.size + p[k]!);
     red += weight * half(table, at);
     green += weight * half(table, at + 1);
     blue += weight * half(table, at + 2);
@@ -49,7 +51,7 @@ export function sample(table: Table, h: number, d: number, p: number): Rgb | nul
   return [r * half(table, at), g * half(table, at + 1), b * half(table, at + 2)];
 }
 
-function side([, , fraction]: readonly [number, number, number], i: number): number {
+function side(fraction: number, i: number): number {
   return i === 0 ? 1 - fraction : fraction;
 }
 

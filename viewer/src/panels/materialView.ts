@@ -1,14 +1,15 @@
 // The material: a live picture of the exact mixed table.
 
 import type { Context } from "../context";
-import { el, iconButton, onResize, segments } from "../dom";
+import { el, iconButton, onResize } from "../dom";
 import { type Environment, toEnvironment } from "../render/environment";
 import { LIGHTS, type Light, loadPicture } from "../render/environments";
 import { Loop } from "../render/loop";
 import { Painter } from "../render/painter";
-import { HOME, type Shape } from "../render/stage";
+import { HOME } from "../render/stage";
 import { EXPOSURES } from "../state";
 import { nearestFirst } from "../wanted";
+import { openDropped, shapeChoice } from "./objects";
 import { orbitOnDrag } from "./orbit";
 import { splitHandle } from "./split";
 
@@ -28,25 +29,17 @@ export function materialView(context: Context): HTMLElement {
       home.hidden = orbit === HOME;
     },
   );
-  const shapes = segments<Shape>(
-    "Object",
-    [
-      ["sphere", "Sphere"],
-      ["teapot", "Teapot"],
-    ],
-    (shape) => store.set({ shape, orbit: HOME }),
-  );
-  store.watch(({ shape }) => shape, shapes.mark);
   const panel = el(
     "section.panel.material.stage",
     { "aria-label": "Material" },
     {},
     canvas,
     el("div.overlay.top", {}, {}, el("h2", {}, {}, "Material"), el("div.group", {}, {}, note, home)),
-    el("div.overlay.bottom", {}, {}, shapes.element, lightChoice(context), exposure(context)),
+    el("div.overlay.bottom", {}, {}, shapeChoice(context), lightChoice(context), exposure(context)),
     splitHandle(context),
     el("div.bar", {}, {}, progress),
   );
+  openDropped(context, panel);
   try {
     paint(context, panel, canvas, note, progress);
   } catch (error) {
@@ -87,7 +80,7 @@ function paint(
   ]);
   /** In the chosen light; while its picture loads, in the one before. */
   const look = () => {
-    const { shape, orbit, light } = store.get();
+    const { shape, mesh, orbit, light } = store.get();
     const environment = environments.get(light);
     if (environment !== undefined) shownLight = environment;
     else if (light !== "studio" && light !== "points" && !loading.has(light)) {
@@ -102,7 +95,7 @@ function paint(
           store.set({ problem: `The environment ${light} could not be loaded: ${error.message}` }),
       );
     }
-    painter.look(shape, orbit, shownLight);
+    painter.look(shape, orbit, mesh?.geometry ?? null, shownLight);
   };
   const loading = new Set<Light>();
   let shownLight: Environment | null = environments.get("studio") ?? null;
@@ -175,7 +168,7 @@ function paint(
     loop.run();
   });
   store.watch(
-    ({ shape, orbit, light }) => [shape, orbit, light] as const,
+    ({ shape, mesh, orbit, light }) => [shape, mesh, orbit, light],
     () => {
       coarsen();
       look();

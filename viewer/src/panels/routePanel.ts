@@ -2,6 +2,7 @@
 
 import type { Context } from "../context";
 import { el, icon, iconButton } from "../dom";
+import { comparedStop } from "../state";
 import { strip } from "./strip";
 
 export function routePanel(context: Context): HTMLElement {
@@ -143,21 +144,29 @@ function chip({ store, actions, thumbnails }: Context, name: string, i: number):
   return element;
 }
 
-/** Small pictures along t, ticks where the recipe changes its simplex, and a range input on top. */
-
-/** Another space whose way through the same stops is shown beside this one's. */
-function compareChoice({ store }: Context): HTMLElement {
+/** What is shown beside, in one picture: the same t in another space, or a stop. */
+function compareChoice({ store, actions }: Context): HTMLElement {
   const { library } = store.get();
+  const materials = el("optgroup", { label: "a stop" });
   const select = el(
     "select.field",
     { name: "compare" },
-    { onchange: () => store.set({ compare: select.value }) },
+    { onchange: () => actions.compareWith(select.value) },
     el("option", { value: "" }, {}, "nothing"),
-    ...library.spaces.map(({ name, text }) => el("option", { value: name, title: text }, {}, name)),
+    el(
+      "optgroup",
+      { label: "the same t in" },
+      {},
+      ...library.spaces.map(({ name, text }) => el("option", { value: name, title: text }, {}, name)),
+    ),
+    materials,
   );
   store.watch(
-    ({ compare }) => compare,
-    (compare) => {
+    ({ compare, stops }) => [compare, stops] as const,
+    ([compare, stops]) => {
+      const own = comparedStop(compare);
+      const names = [...new Set([...stops, ...(own === null ? [] : [own])])];
+      materials.replaceChildren(...names.map((name) => el("option", { value: `stop:${name}` }, {}, name)));
       select.value = compare;
     },
   );

@@ -3,7 +3,7 @@
 import type { Vector3 } from "three";
 import type { Context } from "../context";
 import { el, onResize, segments, style } from "../dom";
-import { hasPlaces, pointOf, withCoordinates } from "../place";
+import { coordinatesIn, hasPlaces, pointOf, withCoordinates } from "../place";
 import { recipeAt, weightIn } from "../recipe";
 import { Appearance } from "../render/appearance";
 import { Cloud } from "../render/cloud";
@@ -69,10 +69,19 @@ export function spaceView(context: Context): HTMLElement {
   };
   const arrange = () => {
     const current = embedding();
-    note.textContent = current ? `${current.axes.join(", ")}; quantile scales` : "close together: look alike";
+    describe();
     cloud.arrange(current ? new Scores(current, names) : appearance, current?.edges ?? []);
     traceRoute();
     place();
+  };
+  const describe = () => {
+    const current = embedding();
+    const { place } = store.get();
+    if (place !== null && !place.inside) note.textContent = "no mix is at the ring: the dot is the nearest";
+    else
+      note.textContent = current
+        ? `${current.axes.join(", ")}; quantile scales`
+        : "close together: look alike";
   };
   const traceRoute = () => {
     const { route } = store.get();
@@ -93,6 +102,13 @@ export function spaceView(context: Context): HTMLElement {
       .map(({ name }) => placement.points[indices.get(name)!]!);
     here3d = placement.place(recipe);
     // In a space the simplex; among looks, what the material is made of.
+    const { view, point, place: found } = store.get();
+    const outside = found !== null && !found.inside && cloud.placement instanceof Scores && current;
+    asked3d =
+      outside && view && point
+        ? (cloud.placement as Scores).at(coordinatesIn(view, point, current.name))
+        : null;
+    describe();
     cloud.setIngredients(current ? pairs(corners) : corners.map((corner) => [here3d!, corner] as const));
     draw();
   };
@@ -125,6 +141,9 @@ export function spaceView(context: Context): HTMLElement {
   };
   const here = el("div.here");
   let here3d: Vector3 | null = null;
+  /** Where a person pointed, when no mix is there. */
+  const asked = el("div.asked");
+  let asked3d: Vector3 | null = null;
   const placeLabels = () => {
     const { stops, hovered } = store.get();
     if (cloud.placement === null) return;
@@ -146,11 +165,16 @@ export function spaceView(context: Context): HTMLElement {
       label.style.transform = `translate(${x}px, ${y}px) translate(${aside}, -50%)`;
       return label;
     });
-    if (here3d !== null) {
-      const { x, y } = cloud.project(here3d);
-      here.style.transform = `translate(${x}px, ${y}px) translate(-50%, -50%)`;
-      labels.replaceChildren(here, ...items);
-    } else labels.replaceChildren(...items);
+    const markers = [
+      [here, here3d],
+      [asked, asked3d],
+    ] as const;
+    const placed = markers.filter(([, point]) => point !== null);
+    for (const [marker, point] of placed) {
+      const { x, y } = cloud.project(point!);
+      marker.style.transform = `translate(${x}px, ${y}px) translate(-50%, -50%)`;
+    }
+    labels.replaceChildren(...placed.map(([marker]) => marker), ...items);
   };
 
   const onMarker = (x: number, y: number) => {
@@ -193,7 +217,7 @@ export function spaceView(context: Context): HTMLElement {
   store.watch(({ scheme }) => scheme, paint);
   store.watch(({ view }) => view, offer);
   store.watch(({ route }) => route, traceRoute);
-  store.watch(({ recipe }) => recipe, place);
+  store.watch(({ recipe, place }) => [recipe, place], place);
   store.watch(({ stops, hovered, found }) => [stops, hovered, found], dress);
   return panel;
 }

@@ -1,7 +1,8 @@
-// The line between two materials in one picture: this space's to the left, the compared one's to the right.
+// The line between two materials in one picture: the present one to the left, the compared one to the right.
 
 import type { Context } from "../context";
 import { el } from "../dom";
+import { comparedStop } from "../state";
 
 const STEP = 0.02;
 
@@ -13,7 +14,7 @@ export function splitHandle({ store }: Context): HTMLElement {
     {
       role: "slider",
       tabindex: 0,
-      "aria-label": "Split between the two spaces",
+      "aria-label": "Split between the two materials",
       "aria-valuemin": 0,
       "aria-valuemax": 100,
     },
@@ -39,7 +40,7 @@ export function splitHandle({ store }: Context): HTMLElement {
     ([space, compare, split]) => {
       handle.hidden = compare === "";
       left.textContent = space;
-      right.textContent = compare;
+      right.textContent = comparedStop(compare) ?? compare;
       handle.style.left = `${100 * split}%`;
       handle.setAttribute("aria-valuenow", String(Math.round(100 * split)));
     },

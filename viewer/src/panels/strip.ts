@@ -5,6 +5,7 @@ import type { RouteView } from "../api/schema";
 import type { Context } from "../context";
 import { el, onResize, style } from "../dom";
 import { recipeAt } from "../recipe";
+import { comparedStop } from "../state";
 
 /** Of a row, in CSS pixels: a picture, and the ticks below it. */
 const SIDE = 58;
@@ -76,7 +77,7 @@ export function strip({ root, store, actions, thumbnails }: Context): HTMLElemen
   store.watch(
     ({ space, compare }) => [space, compare] as const,
     ([space, compare]) => {
-      const rows = compare === "" ? [] : [space, compare];
+      const rows = compare === "" || comparedStop(compare) !== null ? [] : [space, compare];
       names.replaceChildren(...rows.map((name) => el("span", {}, {}, name)));
       element.style.height = `${(SIDE + FOOT) * Math.max(1, rows.length)}px`;
     },

@@ -64,7 +64,12 @@ export class Scores implements Placement {
         return total + weightIn(ingredient, channel) * point[axis]!;
       }, 0),
     );
-    return this.toView(this.stretch(sum));
+    return this.at(sum);
+  }
+
+  /** Where coordinates are drawn; beyond the materials' extent, at its end. */
+  at(coordinates: readonly number[]): Vector3 {
+    return this.toView(this.stretch(coordinates));
   }
 
   /** The coordinates of what is drawn at a place: the inverse of `place`. */

@@ -5,6 +5,7 @@
 // layers: moving t is one pass of dot products, without noise starting over.
 
 import {
+  type BufferGeometry,
   ConstantAlphaFactor,
   CustomBlending,
   FloatType,
@@ -148,8 +149,8 @@ export class Painter {
   }
 
   /** Look from elsewhere, at something else or in another light (none: the three points): all samples start over. */
-  look(shape: Shape, orbit: Orbit, environment: Environment | null): void {
-    this.stage.look(shape, orbit);
+  look(shape: Shape, orbit: Orbit, mesh: BufferGeometry | null, environment: Environment | null): void {
+    this.stage.look(shape, orbit, mesh);
     this.underPoints = environment === null;
     if (environment !== null) {
       this.environment.uniforms.uEnv!.value = environment.picture;

@@ -20,7 +20,8 @@ import { TeapotGeometry } from "three/addons/geometries/TeapotGeometry.js";
 
 import { meshMaterial, Pass, sphereShader } from "./shaders";
 
-export type Shape = "sphere" | "teapot";
+/** `mesh` is a person's own. */
+export type Shape = "sphere" | "teapot" | "mesh";
 
 /** Where the camera is, around what it looks at; angles in radians, 0 is the shape's own view. */
 export interface Orbit {
@@ -44,6 +45,7 @@ interface View {
 const VIEWS: Record<Shape, View> = {
   sphere: { eye: new Vector3(0, -12, 1), target: new Vector3(0, 0, 1), fov: 11, wide: 11 },
   teapot: { eye: new Vector3(0.15, -13, 5.6), target: new Vector3(0.1, 0, 1.32), fov: 28, wide: 31 },
+  mesh: { eye: new Vector3(0, -12.5, 3.2), target: new Vector3(0, 0, 0), fov: 21, wide: 21 },
 };
 const TEAPOT_HEIGHT = 3.15;
 const TEAPOT_TURN = (-28 * Math.PI) / 180;
@@ -60,7 +62,11 @@ export class Stage {
   });
   private shape: Shape = "sphere";
   private readonly size = new Vector2(1, 1);
-  private readonly scene = new Scene();
+  private readonly scenes: Readonly<Record<Exclude<Shape, "sphere">, Scene>> = {
+    teapot: new Scene(),
+    mesh: new Scene(),
+  };
+  private mesh: BufferGeometry | null = null;
   private readonly sphere = new Pass(sphereShader, {
     uToWorld: { value: new Matrix4() },
     uEye: { value: this.camera.position },
@@ -73,9 +79,15 @@ export class Stage {
     this.target.setSize(width, height);
   }
 
-  look(shape: Shape, orbit: Orbit): void {
+  look(shape: Shape, orbit: Orbit, mesh: BufferGeometry | null): void {
     this.shape = shape;
-    if (shape === "teapot" && this.scene.children.length === 0) this.scene.add(teapot());
+    if (shape === "teapot" && this.scenes.teapot.children.length === 0)
+      this.scenes.teapot.add(toObject(teapot()));
+    if (shape === "mesh" && mesh !== null && mesh !== this.mesh) {
+      this.mesh?.dispose();
+      this.mesh = mesh;
+      this.scenes.mesh.clear().add(toObject(mesh));
+    }
     const view = VIEWS[shape];
     const arm = view.eye.clone().sub(view.target);
     const distance = arm.length() / orbit.zoom;
@@ -110,19 +122,22 @@ export class Stage {
       renderer.setRenderTarget(this.target);
       renderer.setClearColor(0x000000, 0);
       renderer.clear();
-      renderer.render(this.scene, this.camera);
+      renderer.render(this.scenes[this.shape], this.camera);
     }
   }
 }
 
 /** The pot of three's examples, standing on z = 0, spout to +x before it is turned. */
-function teapot(): Mesh {
-  const geometry: BufferGeometry = new TeapotGeometry(1, 12);
+function teapot(): BufferGeometry {
+  const geometry = new TeapotGeometry(1, 12);
   geometry.rotateX(Math.PI / 2);
   geometry.computeBoundingBox();
   const box = geometry.boundingBox!;
   const scale = TEAPOT_HEIGHT / (box.max.z - box.min.z);
-  geometry.translate(0, 0, -box.min.z).scale(scale, scale, scale).rotateZ(TEAPOT_TURN);
+  return geometry.translate(0, 0, -box.min.z).scale(scale, scale, scale).rotateZ(TEAPOT_TURN);
+}
+
+function toObject(geometry: BufferGeometry): Mesh {
   const mesh = new Mesh(geometry, meshMaterial());
   mesh.frustumCulled = false;
   return mesh;

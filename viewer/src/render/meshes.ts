@@ -1,0 +1,93 @@
+// A mesh from a person's file: triangles with normals, standing where the teapot stands.
+//
+// Files have y up, as `halfway render --mesh` reads them. Where a file has no normals, each vertex has the mean of its faces'.
+
+import { BufferGeometry, type Mesh, type Object3D } from "three";
+import { OBJLoader } from "three/addons/loaders/OBJLoader.js";
+import { PLYLoader } from "three/addons/loaders/PLYLoader.js";
+import { mergeGeometries, mergeVertices } from "three/addons/utils/BufferGeometryUtils.js";
+
+import { Problem } from "../api/client";
+
+export const MESH_FILES = ".ply,.obj";
+const MAX_BYTES = 100e6;
+const MAX_TRIANGLES = 2e6;
+/** Of the sphere around it, and how high its middle is: as the teapot's. */
+const RADIUS = 2.1;
+
+export async function readMesh(file: File): Promise<BufferGeometry> {
+  if (file.size > MAX_BYTES)
+    throw new Problem(`${file.name} has ${millions(file.size)} MB: expected at most ${millions(MAX_BYTES)}.`);
+  const kind = file.name.toLowerCase().split(".").at(-1);
+  let geometry: BufferGeometry | null;
+  if (kind === "ply") geometry = fromPly(await file.arrayBuffer(), file.name);
+  else if (kind === "obj") geometry = fromObj(await file.text());
+  else throw new Problem(`${file.name} is no mesh that the page reads: expected a .ply or .obj file.`);
+  return placed(checked(geometry, file.name));
+}
+
+function fromPly(bytes: ArrayBuffer, name: string): BufferGeometry | null {
+  let geometry: BufferGeometry;
+  try {
+    if (new TextDecoder().decode(bytes.slice(0, 3)) !== "ply") throw new Error();
+    geometry = new PLYLoader().parse(bytes);
+  } catch {
+    throw new Problem(`${name} is not a PLY file, or is cut short: expected vertices and faces.`);
+  }
+  // Points alone have no index.
+  return geometry.index === null ? null : geometry;
+}
+
+function fromObj(text: string): BufferGeometry | null {
+  const parts: BufferGeometry[] = [];
+  new OBJLoader().parse(text).traverse((object: Object3D) => {
+    if ((object as Mesh).isMesh) parts.push((object as Mesh).geometry);
+  });
+  const whole = parts.every((part) => part.hasAttribute("normal"));
+  return parts.length ? mergeGeometries(parts.map((part) => only(part, whole))) : null;
+}
+
+/** Positions, and normals where they are to be kept. */
+function only(geometry: BufferGeometry, normals: boolean): BufferGeometry {
+  const kept = new BufferGeometry().setIndex(geometry.index);
+  kept.setAttribute("position", geometry.getAttribute("position"));
+  if (normals) kept.setAttribute("normal", geometry.getAttribute("normal"));
+  return kept;
+}
+
+function checked(geometry: BufferGeometry | null, name: string): BufferGeometry {
+  const position = geometry?.getAttribute("position");
+  const nTriangles = ((geometry?.index ?? position)?.count ?? 0) / 3;
+  if (!geometry || !position || nTriangles < 1)
+    throw new Problem(
+      `${name} has no triangles: expected a mesh. A cloud of points has no surface to light.`,
+    );
+  if (nTriangles > MAX_TRIANGLES)
+    throw new Problem(
+      `${name} has ${millions(nTriangles)} million triangles: expected at most ${millions(MAX_TRIANGLES)}.`,
+    );
+  if (!position.array.every(Number.isFinite))
+    throw new Problem(`${name} has positions that are no numbers: expected finite ones.`);
+  const nVertices = position.count;
+  if (geometry.index?.array.some((i) => i >= nVertices))
+    throw new Problem(`${name} has faces of vertices that it does not have: expected ${nVertices} at most.`);
+  if (geometry.hasAttribute("normal")) return only(geometry, true);
+  const smooth = mergeVertices(only(geometry, false));
+  smooth.computeVertexNormals();
+  return smooth;
+}
+
+function placed(geometry: BufferGeometry): BufferGeometry {
+  geometry.rotateX(Math.PI / 2);
+  geometry.computeBoundingBox();
+  const box = geometry.boundingBox!;
+  const [x, y, z] = box.min.clone().add(box.max).multiplyScalar(-0.5).toArray();
+  geometry.translate(x, y, z);
+  geometry.computeBoundingSphere();
+  const scale = RADIUS / Math.max(geometry.boundingSphere!.radius, 1e-30);
+  return geometry.scale(scale, scale, scale);
+}
+
+function millions(n: number): string {
+  return (n / 1e6).toFixed(n < 10e6 ? 1 : 0);
+}
