@@ -12,12 +12,12 @@ from numpy.testing import assert_allclose, assert_array_equal
 from halfway import Grid, HalfDiff, from_half_diff
 from halfway.brdf import IsotropicModel
 from halfway.errors import LibraryError
-from halfway.models import BUILTIN, AbcModel, SgdModel, builtin
+from halfway.models import PUBLISHED, AbcModel, SgdModel, builtin
 from halfway.models.abc import fresnel
 
 UP = np.array([0.0, 0.0, 1.0])
 TINY = Grid.merl(5, 6, 8)
-MATERIALS = [(name, material) for name in BUILTIN for material in builtin(name).models]
+MATERIALS = [(name, material) for name in PUBLISHED for material in builtin(name).models]
 
 materials = st.sampled_from(MATERIALS)
 
@@ -133,7 +133,7 @@ def test_samples_on_a_grid_are_the_values_at_its_cell_centres(material):
     assert_allclose(samples, expected, rtol=1e-6)
 
 
-@pytest.mark.parametrize("name", BUILTIN)
+@pytest.mark.parametrize("name", PUBLISHED)
 def test_rows_sampled_apart_are_the_rows_of_the_whole(name):
     brdf = builtin(name).models["gold-paint"]
     whole = brdf.sample_rows(TINY, slice(None))
@@ -141,7 +141,7 @@ def test_rows_sampled_apart_are_the_rows_of_the_whole(name):
     assert_array_equal(np.concatenate(parts, axis=1), whole)
 
 
-@pytest.mark.parametrize("name", BUILTIN)
+@pytest.mark.parametrize("name", PUBLISHED)
 def test_a_built_in_set_holds_the_100_materials_and_says_what_it_is(name):
     models = builtin(name)
     assert len(models.models) == 100
@@ -168,7 +168,8 @@ def test_an_unknown_set_is_one_line_with_the_known_ones():
     with pytest.raises(LibraryError) as error:
         builtin("merl-xyz")
     assert str(error.value) == (
-        "builtin:merl-xyz is not in this package: choose one of merl-abc, merl-sgd."
+        "builtin:merl-xyz is not in this package: choose one of merl-abc, merl-sgd, synthetic-N "
+        "(such as synthetic-2000, or synthetic-2000-7 for seed 7)."
     )
 
 
@@ -181,7 +182,7 @@ def test_fingerprints_tell_formulas_and_numbers_apart():
 
 def test_importing_the_models_reads_no_numbers():
     code = (
-        "import halfway.models.published as p; assert p.builtin.cache_info().currsize == 0; "
+        "import halfway.models.sets as s; assert s.builtin.cache_info().currsize == 0; "
         "import sys; assert 'h5py' not in sys.modules"
     )
     subprocess.run([sys.executable, "-c", code], check=True)

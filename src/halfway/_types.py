@@ -18,6 +18,8 @@ Table: TypeAlias = Float32[np.ndarray, "3 ..."]
 """Samples of one material on a grid: channel, then the grid's axes."""
 Samples: TypeAlias = Float64[np.ndarray, "3 ..."]
 """A table as a MERL file holds it: divided by the channel's scale, negative where unmeasured."""
+Part: TypeAlias = slice | tuple[slice, ...]
+"""Of a grid: a range of its first axis, or of each of its leading axes."""
 Mask: TypeAlias = Bool[np.ndarray, "..."]
 Rows: TypeAlias = Float32[np.ndarray, "3 n_materials n_cells"]
 """Samples of several materials on a range of cells."""

@@ -8,7 +8,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from .._types import Angle, Directions, Mask, Table, Values
+from .._types import Angle, Directions, Mask, Part, Table, Values
 from ..halfdiff import Grid, HalfDiff, cosines, to_half_diff
 
 # Float64 arrays of this many cells stay in a core's cache: the MERL grid goes two to three times faster than in one piece.
@@ -26,8 +26,11 @@ class Brdf(ABC):
     def fingerprint(self) -> bytes:
         """Bytes that change when any value of the BRDF does: the material's part of a library's checksum."""
 
-    def sample_rows(self, grid: Grid, rows: slice) -> Table:
-        """Samples at the cell centres of the rows ``rows`` of the grid's first axis; NaN off the grid's mask."""
+    def sample_rows(self, grid: Grid, rows: Part) -> Table:
+        """Samples at the cell centres of a part of the grid; NaN off the grid's mask.
+
+        ``rows`` is a range of the first axis, or a tuple with a range of each of the leading axes.
+        """
         wi, wo = (directions[rows] for directions in grid.directions())
         values = np.moveaxis(self.eval(wi, wo), -1, 0)
         return np.where(grid.mask()[rows], values, np.nan).astype(np.float32)
@@ -59,13 +62,14 @@ class IsotropicModel(Brdf):
         ).T
         return values
 
-    def sample_rows(self, grid: Grid, rows: slice) -> Table:
+    def sample_rows(self, grid: Grid, rows: Part) -> Table:
         lit = grid.mask()[rows]
         samples = np.full((3, *lit.shape), np.nan, np.float32)
-        n_rows = max(1, _CELLS_IN_CACHE * grid.shape[0] // grid.size)
+        centres = _cut(grid.centres(), rows)
+        n_rows = max(1, _CELLS_IN_CACHE * len(lit) // max(lit.size, 1))
         for start in range(0, len(lit), n_rows):
             part = slice(start, start + n_rows)
-            values = self._at_centres(_cut(_cut(grid.centres(), rows), part), lit[part])
+            values = self._at_centres(_cut(centres, part), lit[part])
             np.copyto(samples[:, part], values, where=lit[part])
         return samples
 
@@ -82,6 +86,12 @@ class IsotropicModel(Brdf):
         return b"".join([self.formula.encode(), b"\0", *numbers])
 
 
-def _cut(centres: HalfDiff, rows: slice) -> HalfDiff:
-    """The angles on some rows of the first axis; those that do not vary along it stay as they are."""
-    return HalfDiff(*(a if len(a) == 1 else a[rows] for a in map(np.asarray, centres)))
+def _cut(centres: HalfDiff, part: Part) -> HalfDiff:
+    """The angles on a part of the grid; an axis along which one does not vary stays as it is."""
+    ranges = part if isinstance(part, tuple) else (part,)
+    return HalfDiff(*(_cut_one(np.asarray(angle), ranges) for angle in centres))
+
+
+def _cut_one(angle: np.ndarray, ranges: tuple[slice, ...]) -> np.ndarray:
+    sizes = angle.shape[: len(ranges)]
+    return angle[tuple(slice(None) if n == 1 else r for n, r in zip(sizes, ranges, strict=True))]

@@ -15,7 +15,7 @@ from typing import Literal
 
 import numpy as np
 
-from .._types import Directions, Table, Values
+from .._types import Directions, Part, Table, Values
 from ..errors import FormatError
 from ..halfdiff import Corners, Grid
 from .brdf import Brdf
@@ -85,8 +85,10 @@ class TabularBrdf(Brdf):
     def fingerprint(self) -> bytes:
         return hashlib.sha256(np.ascontiguousarray(self.values).data).digest()
 
-    def sample_rows(self, grid: Grid, rows: slice) -> Table:
-        return self.values[:, rows] if grid == self.grid else super().sample_rows(grid, rows)
+    def sample_rows(self, grid: Grid, rows: Part) -> Table:
+        if grid != self.grid:
+            return super().sample_rows(grid, rows)
+        return self.values[(slice(None), *(rows if isinstance(rows, tuple) else (rows,)))]
 
     def _blend(self, corners: Corners) -> np.ndarray:
         samples = self.values.reshape(3, -1)

@@ -25,7 +25,7 @@ from functools import cached_property, reduce
 
 import numpy as np
 
-from .._types import Directions, Table, Values
+from .._types import Directions, Part, Table, Values
 from ..brdf import Brdf
 from ..halfdiff import MERL, Grid, HalfDiff, from_half_diff
 from .rgl_warp import Interpolant, Warp, slices
@@ -83,7 +83,7 @@ class RglBrdf(Brdf):
             digest.update(np.ascontiguousarray(array).data)
         return digest.digest()
 
-    def sample_rows(self, grid: Grid, rows: slice) -> Table:
+    def sample_rows(self, grid: Grid, rows: Part) -> Table:
         """Samples at the cell centres; what a table can hold of the material.
 
         The mean over both orders of light and viewer, because the half/difference grid takes a material as

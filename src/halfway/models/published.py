@@ -6,7 +6,6 @@ They stand in for measurements where none are at hand: a few kilobytes of publis
 import csv
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from functools import cache
 from importlib.resources import files
 from types import MappingProxyType
 from typing import Final
@@ -14,7 +13,6 @@ from typing import Final
 import numpy as np
 
 from ..brdf import IsotropicModel
-from ..errors import LibraryError
 from .abc import AbcModel
 from .sgd import SgdModel
 
@@ -32,21 +30,14 @@ class ModelSet:
     """By material name, in the order of the database."""
 
 
-BUILTIN: Final = ("merl-abc", "merl-sgd")
+PUBLISHED: Final = ("merl-abc", "merl-sgd")
 """Names of the sets that come with the package."""
 
 _FACTS = "published numbers (facts); the models are our own implementation, BSD-3-Clause"
 
 
-@cache  # at most one set for each name in BUILTIN, 100 small models each
-def builtin(name: str) -> ModelSet:
-    """The set of models of this name, one of `BUILTIN`.
-
-    Raises
-    ------
-    LibraryError
-        When there is no such set.
-    """
+def published(name: str) -> ModelSet:
+    """The set of models of this name, one of `PUBLISHED`."""
     match name:
         case "merl-abc":
             return ModelSet(
@@ -57,7 +48,7 @@ def builtin(name: str) -> ModelSet:
                 _FACTS,
                 _read("abc_low2012_microfacet.csv", _to_abc),
             )
-        case "merl-sgd":
+        case _:
             return ModelSet(
                 name,
                 "The 100 MERL materials as analytic stand-ins (shifted gamma fits), not measurements",
@@ -66,9 +57,6 @@ def builtin(name: str) -> ModelSet:
                 _FACTS,
                 _read("sgd_bagher2012.csv", _to_sgd),
             )
-        case _:
-            known = ", ".join(BUILTIN)
-            raise LibraryError(f"builtin:{name} is not in this package: choose one of {known}.")
 
 
 _Row = Mapping[str, str]
