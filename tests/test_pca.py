@@ -11,6 +11,10 @@ from halfway.errors import LibraryError
 from halfway.export.report import Report, table_row
 from halfway.halfdiff import Grid
 from halfway.library import ProceduralLibrary
+from halfway.library.gram import Gram, pack, unpack
+from halfway.library.gram_cache import kept_gram
+from halfway.library.sketch import sketch
+from halfway.models import synthetic
 
 GRID = Grid.merl(6, 5, 8)
 
@@ -132,3 +136,137 @@ def test_table_1_on_the_neural_stand_in(neural):
 
 def test_the_report_says_what_is_a_stand_in(neural):
     assert "not measurements" in neural.description
+
+
+def grown(n: int, grid=GRID, seed=0):
+    """A library whose first materials are those of a smaller one."""
+    return ProceduralLibrary(f"{n}", random_tables(n, grid, seed), grid=grid)
+
+
+def assert_same_gram(found, wanted):
+    for channel in range(3):
+        scale = wanted.centred(channel).diagonal().max()
+        assert_allclose(found.centred(channel), wanted.centred(channel), atol=1e-10 * scale, rtol=0)
+    assert_allclose(found.squared_norms, wanted.squared_norms, rtol=1e-12)
+    assert found.materials == wanted.materials
+    assert (found.n_cells == wanted.n_cells).all()
+
+
+def test_a_triangle_is_the_matrix_it_was():
+    a = np.random.default_rng(0).normal(size=(5, 5))
+    np.testing.assert_array_equal(unpack(pack(a + a.T), 5), a + a.T)
+
+
+def test_completing_a_gram_matrix_is_making_it_anew():
+    assert_same_gram(Gram.of(grown(9)).extended(grown(14)), Gram.of(grown(14)))
+
+
+def test_completing_reads_in_any_order_of_the_materials():
+    tables = random_tables(8, GRID)
+    few = {name: tables[name] for name in ("material-6", "material-1", "material-3")}
+    gram = Gram.of(ProceduralLibrary("few", few, grid=GRID))
+    many = ProceduralLibrary("many", tables, grid=GRID)
+    assert gram.extended(many).origin == 6
+    assert_same_gram(gram.extended(many), Gram.of(many))
+
+
+def test_a_new_material_with_a_hole_makes_the_matrix_anew():
+    tables = random_tables(6, GRID)
+    holed = tables["material-5"].values.copy()
+    holed[1, 2, 1, :3] = np.nan
+    tables["material-5"] = TabularBrdf(holed, GRID)
+    library = ProceduralLibrary("holed", tables, grid=GRID)
+    found = Gram.of(grown(5)).extended(library)
+    assert_same_gram(found, Gram.of(library))
+    assert found.n_cells[1] == found.n_cells[0] - 3
+
+
+def test_a_matrix_of_other_materials_is_not_completed():
+    with pytest.raises(
+        LibraryError, match=r"9 lacks some of the 4 materials .* Fit it by itself\."
+    ):
+        Gram.of(grown(4, seed=1)).extended(grown(9))
+
+
+def test_a_library_that_grew_is_completed_from_the_cache(tmp_path):
+    Pca.fit(grown(9), cache=tmp_path)
+    found = kept_gram(grown(12), tmp_path)
+    assert_same_gram(found, Gram.of(grown(12)))
+    # Only a matrix that was completed keeps the origin and the old products to the last bit.
+    old = unpack(Gram.of(grown(9)).products[0], 9)
+    np.testing.assert_array_equal(unpack(found.products[0], 12)[:9, :9], old)
+
+
+def test_a_damaged_cache_is_made_anew(tmp_path):
+    wanted = Pca.fit(grown(5), cache=tmp_path)
+    for path in tmp_path.iterdir():
+        path.write_bytes(path.read_bytes()[:100])
+    np.testing.assert_array_equal(Pca.fit(grown(5), cache=tmp_path).eigenvalues, wanted.eigenvalues)
+
+
+def test_a_common_offset_costs_no_digits():
+    """Materials that differ by a millionth of what they share: about the origin 12 digits would be lost."""
+    tables = {
+        name: TabularBrdf((1 + 1e-4 * t.values).astype(np.float32), GRID)
+        for name, t in random_tables(6, GRID).items()
+    }
+    library = ProceduralLibrary("alike", tables, grid=GRID)
+    other, _ = reference(library, 2)
+    assert_allclose(
+        Pca.fit(library).eigenvalues[2, :5], other.explained_variance_[:5] * 5, rtol=1e-9
+    )
+
+
+def test_few_components_are_the_first_of_all():
+    library = grown(12)
+    few, all_of_them = Pca.fit(library, n_components=4), Pca.fit(library)
+    assert few.eigenvalues.shape == (3, 4)
+    assert_allclose(few.eigenvalues, all_of_them.eigenvalues[:, :4], rtol=1e-10)
+    assert_allclose(few.scores(4), all_of_them.scores(4), rtol=1e-8, atol=1e-8)
+    for k in (0, 2, 4):
+        assert_allclose(
+            few.squared_residuals(k), all_of_them.squared_residuals(k), rtol=1e-9, atol=1e-9
+        )
+
+
+@pytest.fixture(scope="module")
+def synthetic_300():
+    grid = Grid.merl(16, 12, 12)
+    return ProceduralLibrary("synthetic", synthetic(300), grid=grid)
+
+
+@pytest.mark.parametrize(("n_passes", "tolerance"), [(1, 1e-2), (2, 1e-7), (3, 1e-10)])
+def test_a_sketch_finds_the_leading_components(synthetic_300, n_passes, tolerance):
+    """Its error is a share of the largest eigenvalue, and falls with every pass; eigenvalues are never too large."""
+    exact = Pca.fit(synthetic_300)
+    found = sketch(synthetic_300, 20, n_passes=n_passes)
+    largest = exact.eigenvalues[:, :1]
+    error = (exact.eigenvalues[:, :20] - found.eigenvalues) / largest
+    assert error.min() > -1e-12
+    assert error.max() < tolerance
+    assert_allclose(found.squared_norms, exact.squared_norms, rtol=1e-10)
+    assert_allclose(found.centred_norms, exact.squared_residuals(0), rtol=1e-6)
+
+
+def test_a_sketch_of_fewer_dimensions_than_asked_for_ends_in_zeros():
+    library = ProceduralLibrary("flat", random_tables(5, GRID) | doubled(5), grid=GRID)
+    found = sketch(library, 8)
+    assert_allclose(found.eigenvalues[:, 4:], 0, atol=1e-12 * found.eigenvalues.max())
+    assert_allclose(found.eigenvalues[:, :4], Pca.fit(library).eigenvalues[:, :4], rtol=1e-9)
+
+
+def doubled(n):
+    """The same materials by other names."""
+    return {f"again-{i}": t for i, t in enumerate(random_tables(n, GRID).values())}
+
+
+def test_a_large_library_is_sketched(synthetic_300, monkeypatch, tmp_path):
+    exact = Pca.fit(synthetic_300, n_components=30)
+    monkeypatch.setattr("halfway.library.pca.MOST_EXACT", 100)
+    found = Pca.fit(synthetic_300, n_components=30, cache=tmp_path)
+    assert_allclose(found.eigenvalues[:, :10], exact.eigenvalues[:, :10], rtol=1e-6)
+    k = 10
+    left = exact.squared_residuals(k).sum(), found.squared_residuals(k).sum()
+    assert_allclose(*left, rtol=1e-6)
+    assert found.joint_scores(3).shape == (300, 3)
+    assert_allclose(abs(found.joint_scores(3)), abs(exact.joint_scores(3)), rtol=1e-3, atol=1e-3)

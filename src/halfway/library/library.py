@@ -10,6 +10,7 @@ A library is a set of N materials on one grid of p cells (the paper's "basis of 
 There are two kinds behind this interface: *stored* on disk, and *procedural*, computed when asked for.
 """
 
+import hashlib
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from difflib import get_close_matches
@@ -21,9 +22,6 @@ from .._types import Rows, Table
 from ..brdf import TabularBrdf
 from ..errors import LibraryError
 from ..halfdiff import Grid
-
-BLOCK_BYTES = 16e6
-"""About how many bytes of float64 one channel of a block holds: small enough for a cache, large enough for BLAS."""
 
 
 @dataclass(frozen=True)
@@ -52,6 +50,8 @@ class Library(ABC):
     origin: Origin
     checksum: str
     """Hex digits that change when any sample, name or the grid changes."""
+    material_checksums: tuple[str, ...]
+    """Of each material alone: hex digits that change when its name, a sample of it, or the grid changes."""
 
     def __new__(cls: type[L], *_: Any, **__: Any) -> L:
         library = super().__new__(cls)
@@ -104,3 +104,8 @@ def in_use(name: str) -> Library | None:
     """The library called ``name`` that was made last, of those that this process still holds."""
     libraries = [library for _, library in sorted(_IN_USE.items())]
     return next((lib for lib in reversed(libraries) if getattr(lib, "name", None) == name), None)
+
+
+def material_checksum(name: str, grid: Grid, content: bytes) -> str:
+    """The checksum of one material, whose samples ``content`` stands for."""
+    return hashlib.sha256(repr((name, grid)).encode() + b"\0" + content).hexdigest()[:32]

@@ -23,7 +23,6 @@ Materials from Tabular BRDFs", section III.
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import NamedTuple
 
 import numpy as np
 from jaxtyping import Float64
@@ -31,48 +30,100 @@ from jaxtyping import Float64
 from .._types import Table
 from ..brdf import TabularBrdf
 from ..errors import LibraryError
-from ..tasks import Track, run, silent
+from ..tasks import THREADS, Engine, Track, run, silent
 from .cache import cached
+from .gram import Gram
+from .gram_cache import kept_gram
 from .library import Library
+from .sketch import N_PASSES, sketch
+
+N_KEPT = 256
+"""Components of a library of more materials that are kept, unless more are asked for."""
+MOST_EXACT = 2500
+"""Materials up to which the Gram matrices are formed: 25 MB of products each a task, and 75 MB in the cache."""
 
 
 @dataclass(frozen=True, eq=False)
 class Pca:
-    """Principal components of a library, per channel; N components, of which at most N - 1 carry variance."""
+    """Principal components of a library, per channel; K of them, of which at most N - 1 carry variance."""
 
     names: tuple[str, ...]
     """The materials, in the library's order."""
-    eigenvalues: Float64[np.ndarray, "3 N"]
+    eigenvalues: Float64[np.ndarray, "3 K"]
     """Of the covariance of eq. 3 (a sum, not a mean), descending, non-negative, 1/sr^2."""
-    eigenvectors: Float64[np.ndarray, "3 N N"]
+    eigenvectors: Float64[np.ndarray, "3 N K"]
     """Of the Gram matrix; column j belongs to eigenvalue j, its largest entry positive."""
     squared_norms: Float64[np.ndarray, "3 N"]
     """|p_i|^2 over the cells that count, 1/sr^2."""
+    rest: Float64[np.ndarray, "3 N"]
+    """|u_i|^2 that all K components leave, 1/sr^2."""
     n_cells: tuple[int, int, int]
     """Cells that count: measured in every material."""
 
     @classmethod
-    def fit(cls, library: Library, *, cache: Path | None = None, track: Track = silent) -> "Pca":
-        """The components of ``library``; with a ``cache`` folder, kept there under the library's checksum."""
-        if len(library) < 2:
-            raise LibraryError(
-                f"{library.name} has {len(library)} material: a PCA takes at least 2."
-            )
-        key = f"gram-1-{library.checksum}"
-        gram = cached(cache, key, lambda: _gram(library, track)._asdict())
-        return cls._of_gram(library.names, **gram)
+    def fit(
+        cls,
+        library: Library,
+        *,
+        n_components: int | None = None,
+        cache: Path | None = None,
+        track: Track = silent,
+        engine: Engine = THREADS,
+    ) -> "Pca":
+        """The components of ``library``: all, or the leading ``n_components`` (`N_KEPT` of a library of more materials).
+
+        Exact up to `MOST_EXACT` materials, and by `halfway.library.sketch` beyond. With a ``cache`` folder, what was read of
+        the samples is kept there; a library that grew is then only completed by its new materials.
+
+        Raises
+        ------
+        LibraryError
+            With fewer than 2 materials, or none of the cells measured in all of them.
+        """
+        n = len(library)
+        if n < 2:
+            raise LibraryError(f"{library.name} has {n} material: a PCA takes at least 2.")
+        k = min(n_components or N_KEPT, n)
+        if n <= MOST_EXACT:
+            return cls.of(library.names, kept_gram(library, cache, track=track, engine=engine), k)
+        key = f"sketch-1-{k}-{N_PASSES}-{library.checksum}"
+        found = cached(cache, key, lambda: sketch(library, k, track=track, engine=engine)._asdict())
+        vectors = _signed(found["eigenvectors"])
+        return cls._finished(library.names, found["eigenvalues"], vectors, **_norms(found))
 
     @classmethod
-    def _of_gram(
+    def of(cls, names: tuple[str, ...], gram: Gram, n_components: int | None = None) -> "Pca":
+        """The leading components of Gram matrices; all of them by default."""
+        k = n_components or len(names)
+        pairs: list[tuple[np.ndarray, np.ndarray]] = []
+        centred_norms = np.empty_like(gram.squared_norms)
+        for channel in range(3):
+            centred = gram.centred(channel)
+            centred_norms[channel] = centred.diagonal()
+            pairs.append(_eigen(centred, k))
+        values, vectors = (np.stack(part) for part in zip(*pairs, strict=True))
+        norms = {
+            "squared_norms": gram.squared_norms,
+            "centred_norms": centred_norms,
+            "n_cells": gram.n_cells,
+        }
+        return cls._finished(names, values, vectors, **norms)
+
+    @classmethod
+    def _finished(
         cls,
         names: tuple[str, ...],
-        centred: Float64[np.ndarray, "3 N N"],
+        eigenvalues: Float64[np.ndarray, "3 K"],
+        eigenvectors: Float64[np.ndarray, "3 N K"],
         squared_norms: Float64[np.ndarray, "3 N"],
+        centred_norms: Float64[np.ndarray, "3 N"],
         n_cells: np.ndarray,
     ) -> "Pca":
-        eigenvalues, eigenvectors = _eigen(centred)
+        kept = np.einsum("cij,cj->ci", eigenvectors**2, eigenvalues)
+        is_all = eigenvalues.shape[1] == len(names)
+        rest = np.zeros_like(kept) if is_all else np.maximum(centred_norms - kept, 0)
         r, g, b = map(int, n_cells)
-        return cls(names, eigenvalues, eigenvectors, squared_norms, (r, g, b))
+        return cls(names, eigenvalues, eigenvectors, squared_norms, rest, (r, g, b))
 
     def scores(self, n_components: int) -> Float64[np.ndarray, "3 N k"]:
         """Coordinates of the materials on the first components, 1/sr; their mean is 0."""
@@ -81,15 +132,17 @@ class Pca:
 
     def joint_scores(self, n_components: int) -> Float64[np.ndarray, "N k"]:
         """Coordinates on the first components of all channels together, 1/sr: one analysis of the tables as a whole."""
-        v = self.eigenvectors
-        gram = np.einsum("cij,cj,ckj->ik", v, self.eigenvalues, v)
-        eigenvalues, vectors = _eigen(gram)
-        return vectors[:, :n_components] * np.sqrt(eigenvalues[:n_components])
+        scores = np.concatenate(list(self.scores(self.eigenvalues.shape[1])), axis=1)
+        if scores.shape[1] < len(scores):
+            vectors, roots, _ = np.linalg.svd(scores, full_matrices=False)
+            return _signed(vectors[:, :n_components]) * roots[:n_components]
+        eigenvalues, vectors = _eigen(scores @ scores.T, min(n_components, len(scores)))
+        return vectors * np.sqrt(eigenvalues)
 
     def squared_residuals(self, n_components: int) -> Float64[np.ndarray, "3 N"]:
-        """|u_i - u_i,k|^2 of the k-component reconstructions."""
+        """|u_i - u_i,k|^2 of the k-component reconstructions, k at most K."""
         tail = self.eigenvectors[:, :, n_components:] ** 2
-        return np.einsum("cij,cj->ci", tail, self.eigenvalues[:, n_components:])
+        return np.einsum("cij,cj->ci", tail, self.eigenvalues[:, n_components:]) + self.rest
 
     def reconstruct(self, library: Library, name: str, n_components: int) -> TabularBrdf:
         """The k-component reconstruction of one material: the truncated PCA, which may be negative.
@@ -107,56 +160,28 @@ class Pca:
         return TabularBrdf(values.reshape(3, *library.grid.shape), library.grid, name=label)
 
 
+def _norms(arrays: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
+    return {name: arrays[name] for name in ("squared_norms", "centred_norms", "n_cells")}
+
+
 def _eigen(
-    gram: Float64[np.ndarray, "*c N N"],
-) -> tuple[Float64[np.ndarray, "*c N"], Float64[np.ndarray, "*c N N"]]:
-    """Eigenvalues, descending and non-negative, and eigenvectors whose largest entry is positive."""
-    eigenvalues, eigenvectors = np.linalg.eigh(gram)
-    eigenvectors = eigenvectors[..., ::-1]
-    largest = np.abs(eigenvectors).argmax(axis=-2, keepdims=True)
-    signs = np.sign(np.take_along_axis(eigenvectors, largest, axis=-2))
-    return np.maximum(eigenvalues[..., ::-1], 0.0), eigenvectors * signs
+    gram: Float64[np.ndarray, "N N"], k: int
+) -> tuple[Float64[np.ndarray, " k"], Float64[np.ndarray, "N k"]]:
+    """The k largest eigenvalues, descending and non-negative, and eigenvectors whose largest entry is positive."""
+    n = len(gram)
+    if k == n:
+        eigenvalues, vectors = np.linalg.eigh(gram)
+    else:
+        from scipy.linalg import eigh  # a second to load
+
+        eigenvalues, vectors = eigh(gram, subset_by_index=(n - k, n - 1), check_finite=False)
+    return np.maximum(eigenvalues[::-1], 0.0), _signed(vectors[:, ::-1])
 
 
-class _Gram(NamedTuple):
-    centred: Float64[np.ndarray, "3 N N"]
-    squared_norms: Float64[np.ndarray, "3 N"]
-    n_cells: np.ndarray
-
-
-def _gram(library: Library, track: Track) -> _Gram:
-    n = len(library)
-    total = _Gram(np.zeros((3, n, n)), np.zeros((3, n)), np.zeros(3, np.int64))
-    blocks = run(
-        partial(_gram_block, library), library.blocks(), label="Gram matrices", track=track
-    )
-    for block in blocks:
-        for whole, part in zip(total, block, strict=True):
-            whole += part
-    if not total.n_cells.all():
-        raise LibraryError(
-            f"{library.name} has no cell that is measured in all of its {n} materials: a PCA needs some. "
-            "Build a library of materials that were measured on the same cells."
-        )
-    return total
-
-
-def _gram_block(library: Library, columns: slice) -> _Gram:
-    block = library.columns(columns)
-    gram = _Gram(
-        np.empty((3, len(library), len(library))),
-        np.empty((3, len(library))),
-        np.empty(3, np.int64),
-    )
-    for c, samples in enumerate(block):
-        measured = ~np.isnan(samples).any(axis=0)
-        u = samples.astype(np.float64)
-        u[:, ~measured] = 0.0
-        gram.squared_norms[c] = np.einsum("ij,ij->i", u, u)
-        u -= u.mean(axis=0)
-        gram.centred[c] = u @ u.T
-        gram.n_cells[c] = measured.sum()
-    return gram
+def _signed(vectors: Float64[np.ndarray, "*c N k"]) -> Float64[np.ndarray, "*c N k"]:
+    """Each column with the sign that makes its largest entry positive."""
+    largest = np.abs(vectors).argmax(axis=-2, keepdims=True)
+    return vectors * np.sign(np.take_along_axis(vectors, largest, axis=-2))
 
 
 def _combine(library: Library, weights: Float64[np.ndarray, "3 N"], columns: slice) -> np.ndarray:

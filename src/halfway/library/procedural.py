@@ -1,11 +1,10 @@
 """Libraries whose samples are computed when asked for: published fits, neural fits.
 
 A few hundred kilobytes of parameters stand for 1.7 GB of tables. Blocks are whole rows of the grid's first axis,
-because that is what a BRDF computes cheaply.
+because that is what a BRDF computes cheaply, or parts of such rows where there are many materials.
 """
 
 import hashlib
-import math
 from collections.abc import Mapping
 
 import numpy as np
@@ -13,7 +12,8 @@ import numpy as np
 from .._types import Rows, Table
 from ..brdf import Brdf
 from ..halfdiff import MERL, Grid
-from .library import BLOCK_BYTES, Library, Origin
+from .blocks import columns_per_block, grid_parts
+from .library import Library, Origin, material_checksum
 
 
 class ProceduralLibrary(Library):
@@ -40,31 +40,27 @@ class ProceduralLibrary(Library):
         self.grid = grid
         self.origin = origin
         self._brdfs = tuple(brdfs.values())
+        prints = [brdf.fingerprint() for brdf in self._brdfs]
         digest = hashlib.sha256(repr((self.names, self.grid)).encode())
-        for brdf in self._brdfs:
-            digest.update(brdf.fingerprint())
+        for fingerprint in prints:
+            digest.update(fingerprint)
         self.checksum = digest.hexdigest()
+        self.material_checksums = tuple(
+            material_checksum(name, grid, fingerprint)
+            for name, fingerprint in zip(self.names, prints, strict=True)
+        )
+        parts = grid_parts(grid.shape, columns_per_block(len(self)))
+        self._parts = {(columns.start, columns.stop): part for columns, part in parts}
 
     def row(self, i: int) -> Table:
         return self._brdfs[i].sample_rows(self.grid, slice(None)).reshape(3, -1)
 
     def columns(self, columns: slice) -> Rows:
-        rows = slice(columns.start // self._stride, columns.stop // self._stride)
+        part = self._parts[columns.start, columns.stop]
         block = np.empty((3, len(self), columns.stop - columns.start), np.float32)
         for i, brdf in enumerate(self._brdfs):
-            block[:, i] = brdf.sample_rows(self.grid, rows).reshape(3, -1)
+            block[:, i] = brdf.sample_rows(self.grid, part).reshape(3, -1)
         return block
 
     def blocks(self) -> list[slice]:
-        n_rows = max(1, int(BLOCK_BYTES / (8 * len(self) * self._stride)))
-        starts = range(0, self.grid.shape[0], n_rows)
-        ends = [min(start + n_rows, self.grid.shape[0]) for start in starts]
-        return [
-            slice(start * self._stride, end * self._stride)
-            for start, end in zip(starts, ends, strict=True)
-        ]
-
-    @property
-    def _stride(self) -> int:
-        """Cells in one row of the grid's first axis."""
-        return math.prod(self.grid.shape[1:])
+        return [slice(start, stop) for start, stop in self._parts]

@@ -29,7 +29,8 @@ from ..files import require_space
 from ..formats import Found, Skipped, find_brdfs
 from ..halfdiff import MERL, Axis, Grid
 from ..tasks import Track, run, silent
-from .library import BLOCK_BYTES, Library, Origin
+from .blocks import columns_per_block, ranges
+from .library import Library, Origin, material_checksum
 
 FORMAT = 1
 SUFFIX = ".brdflib"
@@ -72,6 +73,10 @@ class StoredLibrary(Library):
         self.names = tuple(entry.name for entry in self.entries)
         parts = [(entry.name, entry.sha256) for entry in self.entries]
         self.checksum = hashlib.sha256(repr((parts, self.grid)).encode()).hexdigest()
+        self.material_checksums = tuple(
+            material_checksum(entry.name, self.grid, entry.sha256.encode())
+            for entry in self.entries
+        )
         self._check_tables()
 
     def row(self, i: int) -> Table:
@@ -81,9 +86,7 @@ class StoredLibrary(Library):
         return self._read(range(len(self)), columns)
 
     def blocks(self) -> list[slice]:
-        n_columns = max(1, int(BLOCK_BYTES / (8 * len(self))))
-        starts = range(0, self.grid.size, n_columns)
-        return [slice(start, min(start + n_columns, self.grid.size)) for start in starts]
+        return ranges(self.grid.size, columns_per_block(len(self)))
 
     def _read(self, materials: range, columns: slice) -> Rows:
         rows = np.empty((3, len(materials), columns.stop - columns.start), np.float32)

@@ -1,0 +1,64 @@
+"""Gram matrices in the cache folder: found whole, or found in part and completed.
+
+A kept matrix knows its materials by their checksums. So when a library has grown, by whatever way, the largest kept matrix
+all of whose materials are in it is completed by the new ones.
+"""
+
+from dataclasses import fields
+from pathlib import Path
+
+import numpy as np
+
+from ..tasks import THREADS, Engine, Track, silent
+from .cache import cached
+from .gram import Gram
+from .library import Library
+
+_KEY = "gram-2-"
+
+
+def kept_gram(
+    library: Library,
+    cache: Path | None,
+    *,
+    track: Track = silent,
+    engine: Engine = THREADS,
+) -> Gram:
+    """The Gram matrices of ``library``, from the ``cache`` folder as far as it has them; kept there."""
+
+    def compute() -> dict[str, np.ndarray]:
+        start = _largest_part(library, cache) if cache is not None else None
+        if start is None:
+            gram = Gram.of(library, track=track, engine=engine)
+        else:
+            gram = start.extended(library, track=track, engine=engine)
+        return {field.name: np.asarray(getattr(gram, field.name)) for field in fields(Gram)}
+
+    return _to_gram(cached(cache, f"{_KEY}{library.checksum}", compute))
+
+
+def _largest_part(library: Library, cache: Path) -> Gram | None:
+    ours = set(library.material_checksums)
+    n_most, largest = 0, None
+    for path in cache.glob(f"{_KEY}*.npz"):
+        theirs = _materials(path)
+        if len(theirs) > n_most and ours.issuperset(theirs):
+            n_most, largest = len(theirs), path
+    if largest is None:
+        return None
+    with np.load(largest, allow_pickle=False) as archive:
+        return _to_gram(dict(archive))
+
+
+def _materials(path: Path) -> list[str]:
+    """Of a kept matrix; a file that is damaged, or just gone, has none."""
+    try:
+        with path.open("rb") as file, np.load(file, allow_pickle=False) as archive:
+            return archive["materials"].tolist()
+    except Exception:
+        return []
+
+
+def _to_gram(arrays: dict[str, np.ndarray]) -> Gram:
+    materials, origin = tuple(arrays["materials"].tolist()), int(arrays["origin"])
+    return Gram(materials, origin, *(arrays[f] for f in ("products", "squared_norms", "n_cells")))
