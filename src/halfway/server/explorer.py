@@ -72,7 +72,7 @@ class Explorer:
         self.library = library
         self._cache = cache
         self._pca = Pca.fit(library, cache=cache, track=track)
-        self._pictures = BasisImages.fit(library, cache=cache, track=track)
+        self.pictures = BasisImages.fit(library, cache=cache, track=track)
         # The page opens with the first space; the others are made when they are asked for.
         self._spaces = {SPACES[0]: make_space(SPACES[0], library, cache=cache, track=track)}
         self._making = Lock()
@@ -83,7 +83,7 @@ class Explorer:
     def summary(self) -> LibrarySummary:
         """What is being explored."""
         library = self.library
-        colours = np.median(self._pictures.images, axis=1).clip(0).tolist()
+        colours = np.median(self.pictures.images, axis=1).clip(0).tolist()
         return LibrarySummary(
             version=version("halfway"),
             name=library.name,
@@ -98,7 +98,7 @@ class Explorer:
             ],
             spaces=[SpaceSummary(name=name, text=TEXTS.get(name, "")) for name in SPACES],
             paces=list(PACES),
-            thumbnail_size=self._pictures.scene.size,
+            thumbnail_size=self.pictures.scene.size,
             lights=[
                 PointLight(at=light.at, intensity=light.intensity)
                 for light in SCENES["spheres"].points
@@ -108,7 +108,7 @@ class Explorer:
 
     def space_view(self, name: str) -> SpaceView:
         """The space called ``name``, to be looked at."""
-        return look_at(self._space(name), self._pca)
+        return look_at(self.space(name), self._pca)
 
     def route(self, space: str, stops: Sequence[str], pace: str) -> RouteView:
         """The route through ``stops``."""
@@ -118,12 +118,12 @@ class Explorer:
             )
         if pace not in PACES:
             raise SpaceError(f"there is no pace {pace!r}: expected {' or '.join(PACES)}.")
-        route = Route.through(self._space(space), stops)
-        return to_view(perceptual(route, self._pictures) if pace == "perceptual" else route)
+        route = Route.through(self.space(space), stops)
+        return to_view(perceptual(route, self.pictures) if pace == "perceptual" else route)
 
     def place(self, place: Place) -> PlaceView:
         """The material at a free place of a space."""
-        space = self._space(place.space)
+        space = self.space(place.space)
         point = np.array(place.point)
         match space:
             case AnchoredSpace():
@@ -160,9 +160,9 @@ class Explorer:
 
     def thumbnails(self) -> Block:
         """Pictures of all materials on a lit sphere, (N, size, size, RGBA), linear, black beside the sphere."""
-        mask = self._pictures.scene.mask()
+        mask = self.pictures.scene.mask()
         pictures = np.zeros((len(self.library), *mask.shape, 3), np.float32)
-        pictures[:, mask] = self._pictures.images.clip(0)
+        pictures[:, mask] = self.pictures.images.clip(0)
         return Block.of(pictures, np.broadcast_to(mask, pictures.shape[:-1]))
 
     def environment(self) -> Block:
@@ -200,7 +200,8 @@ class Explorer:
         weights[:, [self.library.index(name) for name in recipe.names]] = recipe.weights
         return weights
 
-    def _space(self, name: str) -> Space:
+    def space(self, name: str) -> Space:
+        """The space called ``name``, made when it is first asked for."""
         with self._making:
             if name not in self._spaces:
                 self._spaces[name] = make_space(name, self.library, cache=self._cache)

@@ -15,7 +15,7 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 MAX_BODY = 1 << 20
 """Bytes of a request's body: a recipe of a thousand materials takes 50,000."""
 LOOPBACK = ("127.0.0.1", "localhost", "[::1]")
-POLICY = "; ".join(
+META_POLICY = "; ".join(
     [
         "default-src 'none'",
         "script-src 'self'",
@@ -24,9 +24,10 @@ POLICY = "; ".join(
         "connect-src 'self'",
         "base-uri 'none'",
         "form-action 'none'",
-        "frame-ancestors 'none'",
     ]
 )
+"""What a page can say of itself; who may frame it, only a header can."""
+POLICY = f"{META_POLICY}; frame-ancestors 'none'"
 HEADERS = {
     "Content-Security-Policy": POLICY,
     "Cross-Origin-Opener-Policy": "same-origin",

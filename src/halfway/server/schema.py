@@ -159,3 +159,53 @@ class PlaceView(Model):
     """Where it is: the place asked for, or the nearest that is a mix."""
     inside: bool
     """Whether the place asked for is a mix."""
+
+
+class BlockFile(Model):
+    """What a file of half floats holds."""
+
+    shape: list[int]
+    scale: Vector
+
+
+class Folder(Model):
+    """A static explorer: the library, and what its files hold (see `halfway.server.static`)."""
+
+    format: Literal[1] = 1
+    library: LibrarySummary
+    thumbnails: BlockFile
+    environment: BlockFile
+    tables: list[BlockFile]
+    """In the library's order."""
+
+
+class TriangulationView(Model):
+    """A Delaunay triangulation: the place x of a space is (x - origin) frame, among ``points``."""
+
+    origin: list[float]
+    frame: list[list[float]]
+    points: list[list[float]]
+    """In the library's order."""
+    simplices: list[list[int]]
+
+
+class SpaceFile(Model):
+    """A space of a static explorer."""
+
+    view: SpaceView
+    triangulations: list[TriangulationView]
+    """One for all channels, one for each, or none where there are no places between routes."""
+    nearest: bool
+    """Whether a place outside the hull stands for the nearest inside; if not it is a mistake."""
+
+
+class LegFile(Model):
+    """The way from one material to another in a space of a static explorer, at uniform pace."""
+
+    names: list[str]
+    knots: list[float]
+    weights: WeightTable
+    pace_t: list[float]
+    """Some t, ascending from 0 to 1."""
+    pace_length: list[float]
+    """How much has changed to the eye from the start to each (`halfway.space.pace`)."""

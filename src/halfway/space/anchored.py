@@ -60,7 +60,8 @@ class AnchoredSpace(Space):
     points: Points
     """Where each material is, shape (N, k + 3)."""
     detour: float
-    _scale: Float64[np.ndarray, " d"]
+    scale: Float64[np.ndarray, " d"]
+    """What the coordinates are multiplied by where distances count."""
     _walk: DelaunayWalk
     _images: BasisImages
     name = "anchored"
@@ -130,18 +131,18 @@ class AnchoredSpace(Space):
         OutsideHullError
             When the point is outside the hull; the message has the distance and the nearest point.
         """
-        x = self._coordinates_of(point) * self._scale
+        x = self._coordinates_of(point) * self.scale
         try:
             weights = self._walk.weights(x)
         except OutsideHullError:
-            weights = nearest_in_hull(self.points * self._scale, x)
+            weights = nearest_in_hull(self.points * self.scale, x)
             if not clamp:
                 raise OutsideHullError(self._outside(x, weights)) from None
         return Recipe.from_dense(self.library, self.names, np.stack([weights] * 3))
 
     def neighbours(self, name: str, n: int = 8) -> list[tuple[str, float]]:
         """The ``n`` materials nearest to one, with their distances in the scaled space, nearest first."""
-        scaled = self.points * self._scale
+        scaled = self.points * self.scale
         distances = np.linalg.norm(scaled - scaled[self.names.index(name)], axis=1)
         nearest = distances.argsort(kind="stable")[1 : n + 1]
         return [(self.names[i], float(distances[i])) for i in nearest]
@@ -190,7 +191,7 @@ class AnchoredSpace(Space):
 
     def _outside(self, x: Float64[np.ndarray, " d"], weights: Float64[np.ndarray, " N"]) -> str:
         nearest = weights @ self.points
-        distance = np.linalg.norm(nearest * self._scale - x)
+        distance = np.linalg.norm(nearest * self.scale - x)
         listed = ",".join(f"{value:.6g}" for value in nearest)
         return (
             f"the point is outside the hull of the {len(self.names)} materials, {distance:.3g} from it (materials are "

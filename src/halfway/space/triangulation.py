@@ -65,8 +65,8 @@ class Triangulation:
     """The points as given, shape (n, k)."""
     simplices: Int[np.ndarray, "n_simplices n_vertices"]
     """Indices of the vertices, into `points`; flat simplices left out."""
-    _origin: Float64[np.ndarray, " k"]
-    _basis: Float64[np.ndarray, "k d"]
+    origin: Float64[np.ndarray, " k"]
+    basis: Float64[np.ndarray, "k d"]
     """Columns span the directions that count, scaled so that the largest extent is 1."""
     _inverses: Float64[np.ndarray, "n_simplices n_vertices n_vertices"]
     """Take (x, 1) to the barycentric weights."""
@@ -86,7 +86,7 @@ class Triangulation:
     @property
     def n_dimensions(self) -> int:
         """Dimensions in which the points extend."""
-        return self._basis.shape[1]
+        return self.basis.shape[1]
 
     def weights(self, x: Float64[np.ndarray, " k"]) -> Float64[np.ndarray, " n_points"]:
         """Barycentric weights of ``x`` over all points.
@@ -134,7 +134,7 @@ class Triangulation:
     def _barycentric(
         self, x: Float64[np.ndarray, " k"]
     ) -> Float64[np.ndarray, "n_simplices n_vertices"]:
-        return self._inverses @ np.append((x - self._origin) @ self._basis, 1.0)
+        return self._inverses @ np.append((x - self.origin) @ self.basis, 1.0)
 
     def _scatter(
         self, simplex: int, barycentric: Float64[np.ndarray, " n_vertices"]

@@ -1,0 +1,203 @@
+"""The explorer as a folder of files, which any static host serves under any path: no server is needed.
+
+    DIR/
+        index.html, assets/         the page; index.html says that its data are in the folder beside it
+        data/explorer.json          the library, and what the blocks hold               schema.Folder
+        data/spaces/NAME.json       a space to look at, and its triangulation           schema.SpaceFile
+        data/legs/NAME/I-J.json     the way from material I to material J, I < J        schema.LegFile
+        data/tables/I.bin           a table as half floats (`blocks`), gzip; so are
+        data/thumbnails.bin, data/environment.bin
+
+Materials and spaces are called by number in paths, so a name may hold any letters. The folder is the explorer of a library of
+these materials alone: the spaces are theirs, and no recipe needs another.
+
+What the server works out, the page works out the same from these files. A route's legs are put one after another, and its
+pace is made of their lengths; the weights of a free place are barycentric in the triangulation, which for a few materials is
+small enough to write down. Exported tables alone stay with Python: the page holds half floats.
+"""
+
+import gzip
+import warnings
+from functools import partial
+from itertools import combinations
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+from ..errors import DegenerateSpaceWarning, OutputError
+from ..files import replacing_folder, require_space
+from ..library import BasisImages, Library
+from ..space import SPACES, AnchoredSpace, PaperSpace, Route, Space, Triangulation, lengths
+from ..tasks import Track, run, silent
+from .blocks import Block
+from .explorer import Explorer, to_view
+from .guard import META_POLICY
+from .page import Page
+from .schema import BlockFile, Folder, LegFile, Model, SpaceFile, TriangulationView
+
+MARK = Path("data/explorer.json")
+N_LARGEST = 40
+"""Materials that a folder takes: 780 ways in each space, and a triangulation of some thousand simplices."""
+DATA = "./data/"
+
+
+class Exported(NamedTuple):
+    """What `export` wrote."""
+
+    n_files: int
+    n_bytes: int
+
+
+def export(
+    library: Library,
+    folder: Path,
+    page: Page,
+    *,
+    cache: Path | None = None,
+    track: Track = silent,
+) -> Exported:
+    """Write the explorer of ``library`` into ``folder``, in place of an earlier one.
+
+    Raises
+    ------
+    OutputError
+        When the folder holds anything else or cannot be written, or the library is too large for files.
+    """
+    _require_own(folder)
+    if len(library) > N_LARGEST:
+        raise OutputError(
+            f"{library.name} has {len(library)} materials: a folder takes at most {N_LARGEST}. "
+            "Name some with --materials, or choose with -n."
+        )
+    require_space(folder, 8 * library.grid.size * len(library), f"the explorer in {folder}")
+    explorer = Explorer(library, cache=cache, track=track)
+    with replacing_folder(folder) as temporary:
+        files = _Files(temporary)
+        _write_page(files, page)
+        _write_blocks(files, explorer, track)
+        for name in SPACES:
+            _write_space(files, explorer, name, track)
+        return Exported(files.n_files, files.n_bytes)
+
+
+def _require_own(folder: Path) -> None:
+    if folder.is_dir() and any(folder.iterdir()) and not (folder / MARK).is_file():
+        raise OutputError(
+            f"{folder} holds files that are no explorer's: expected an empty folder, or an earlier export. "
+            "Choose another with --export."
+        )
+
+
+class _Files:
+    """Writes into the folder, and counts."""
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
+        self.n_files = self.n_bytes = 0
+
+    def write(self, path: str, content: bytes) -> None:
+        file = self._folder / path
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_bytes(content)
+        self.n_files += 1
+        self.n_bytes += len(content)
+
+    def json(self, path: str, model: Model) -> None:
+        self.write(path, model.model_dump_json().encode())
+
+    def block(self, path: str, block: Block) -> BlockFile:
+        # Without a time: the same library makes the same bytes.
+        self.write(path, gzip.compress(block.body, mtime=0))
+        return BlockFile(shape=list(block.shape), scale=block.scale)
+
+
+def _write_page(files: _Files, page: Page) -> None:
+    for path, asset in page.assets.items():
+        files.write(path, _index(asset.body) if path == "index.html" else asset.body)
+
+
+def _index(html: bytes) -> bytes:
+    """The page, told where its data are, and with the policy that the server sends as a header."""
+    head = (
+        f'<head><meta http-equiv="Content-Security-Policy" content="{META_POLICY}" />'
+        f'<meta name="halfway-data" content="{DATA}" />'
+    )
+    return html.replace(b"<head>", head.encode(), 1)
+
+
+def _write_blocks(files: _Files, explorer: Explorer, track: Track) -> None:
+    names = explorer.library.names
+    tables = [
+        files.block(f"data/tables/{i}.bin", explorer.table(name))
+        for i, name in enumerate(track(names, "Tables", len(names)))
+    ]
+    files.json(
+        str(MARK),
+        Folder(
+            library=explorer.summary().model_copy(update={"exports": []}),
+            thumbnails=files.block("data/thumbnails.bin", explorer.thumbnails()),
+            environment=files.block("data/environment.bin", explorer.environment()),
+            tables=tables,
+        ),
+    )
+
+
+def _write_space(files: _Files, explorer: Explorer, name: str, track: Track) -> None:
+    space = explorer.space(name)
+    files.json(
+        f"data/spaces/{name}.json",
+        SpaceFile(
+            view=explorer.space_view(name),
+            triangulations=triangulations(space),
+            nearest=isinstance(space, AnchoredSpace),
+        ),
+    )
+    pairs = list(combinations(range(len(space.names)), 2))
+    legs = run(partial(_leg, space, explorer.pictures), pairs, label=f"Ways, {name}", track=track)
+    for (i, j), leg in zip(pairs, legs, strict=True):
+        files.json(f"data/legs/{name}/{i}-{j}.json", leg)
+
+
+def triangulations(space: Space) -> list[TriangulationView]:
+    """What the page needs to find the weights of a place."""
+    match space:
+        case AnchoredSpace():
+            with warnings.catch_warnings():
+                # Said already, when the space was made.
+                warnings.simplefilter("ignore", DegenerateSpaceWarning)
+                scaled = Triangulation.of(space.points * space.scale)
+            return [_triangulation(scaled, space.scale)]
+        case PaperSpace():
+            return [_triangulation(t, np.ones(t.points.shape[1])) for t in space.triangulations]
+        case _:
+            return []
+
+
+def _triangulation(triangulation: Triangulation, scale: np.ndarray) -> TriangulationView:
+    """The triangulation of scaled points, of the points as they are."""
+    origin, basis = triangulation.origin, triangulation.basis
+    return TriangulationView(
+        origin=(origin / scale).tolist(),
+        frame=(scale[:, None] * basis).tolist(),
+        points=((triangulation.points - origin) @ basis).tolist(),
+        simplices=triangulation.simplices.tolist(),
+    )
+
+
+def _leg(space: Space, pictures: BasisImages, pair: tuple[int, int]) -> LegFile:
+    i, j = pair
+    return leg(Route.through(space, [space.names[i], space.names[j]]), pictures)
+
+
+def leg(route: Route, pictures: BasisImages) -> LegFile:
+    """A route of two stops, with how much changes along it."""
+    view = to_view(route)
+    t, length = lengths(route, pictures)
+    return LegFile(
+        names=view.names,
+        knots=view.knots,
+        weights=view.weights,
+        pace_t=t.tolist(),
+        pace_length=length.tolist(),
+    )
