@@ -25,7 +25,7 @@ from ..space import (
     sample_pairs,
 )
 from ..space.recipe import CHANNELS
-from ..tasks import Track, silent
+from ..tasks import THREADS, Engine, Track, silent
 from . import figures
 
 FORMAT = 1
@@ -102,17 +102,18 @@ def compare_spaces(
     seed: int = 0,
     cache: Path | None = None,
     track: Track = silent,
+    engine: Engine = THREADS,
 ) -> list[dict[str, Any]]:
     """Every space measured on the same pairs of materials (None: all), and leaving out each material in turn."""
-    bench = Bench.fit(library, cache=cache, track=track)
+    bench = Bench.fit(library, cache=cache, track=track, engine=engine)
     pairs = sample_pairs(len(library), n_pairs, seed=seed)
     places = {"paper": PaperPlace(pca), "anchored": AnchoredPlace(pca, bench.samples.body)}
     measured: list[dict[str, Any]] = []
     for name in SPACES:
-        space = make_space(name, library, cache=cache, track=track)
-        found = {"seed": seed} | evaluate(space, bench, pairs, track=track).to_json()
+        space = make_space(name, library, cache=cache, track=track, engine=engine)
+        found = {"seed": seed} | evaluate(space, bench, pairs, track=track, engine=engine).to_json()
         if name in places:
-            left = leave_one_out(name, places[name], bench, track=track).to_json()
+            left = leave_one_out(name, places[name], bench, track=track, engine=engine).to_json()
             found["leave_one_out"] = {key: value for key, value in left.items() if key != "space"}
         measured.append(found)
     return measured

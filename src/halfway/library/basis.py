@@ -15,7 +15,7 @@ import numpy as np
 from jaxtyping import Float, Float32
 
 from ..brdf.sphere import PACING_SCENE, BasisScene, SphereOperator
-from ..tasks import Track, run, silent
+from ..tasks import THREADS, Engine, Track, run, silent
 from .cache import cached
 from .library import Library
 
@@ -38,10 +38,13 @@ class BasisImages:
         *,
         cache: Path | None = None,
         track: Track = silent,
+        engine: Engine = THREADS,
     ) -> "BasisImages":
         """The pictures of ``library``; with a ``cache`` folder, kept there under the library's checksum."""
         key = f"basis-1-{scene.fingerprint()}-{library.checksum}"
-        planes = cached(cache, key, lambda: {"planes": _planes(library, scene, track)})["planes"]
+        planes = cached(cache, key, lambda: {"planes": _planes(library, scene, track, engine)})[
+            "planes"
+        ]
         planes.flags.writeable = False
         return cls(library.names, scene, planes)
 
@@ -68,10 +71,12 @@ class BasisImages:
 
 
 def _planes(
-    library: Library, scene: BasisScene, track: Track
+    library: Library, scene: BasisScene, track: Track, engine: Engine
 ) -> Float32[np.ndarray, "3 N n_pixels"]:
     draw = partial(_draw, library, SphereOperator.of(scene, library.grid))
-    pictures = list(run(draw, range(len(library)), label="Basis images", track=track))
+    pictures = list(
+        run(draw, range(len(library)), label="Basis images", track=track, engine=engine)
+    )
     return np.ascontiguousarray(np.moveaxis(np.stack(pictures), -1, 0))
 
 

@@ -21,7 +21,7 @@ from jaxtyping import Float, Float32, Float64, Int
 from .._types import Mask
 from ..brdf.metrics import MAPPINGS, Metric, comparison_cells
 from ..halfdiff import Grid
-from ..tasks import Track, run, silent
+from ..tasks import THREADS, Engine, Track, run, silent
 from .cache import cached
 from .library import Library
 
@@ -58,11 +58,12 @@ class BasisSamples:
         seed: int = 0,
         cache: Path | None = None,
         track: Track = silent,
+        engine: Engine = THREADS,
     ) -> "BasisSamples":
         """Samples of ``library`` on about ``n_cells`` cells; kept in a ``cache`` folder under its checksum."""
         key = f"samples-1-{n_cells}-{seed}-{library.checksum}"
         drawn = _draw_cells(library.grid, n_cells, seed)
-        arrays = cached(cache, key, lambda: _read(library, drawn.cells, track))
+        arrays = cached(cache, key, lambda: _read(library, drawn.cells, track, engine))
         values = arrays["values"]
         kept = ~np.isnan(values).any(axis=(0, 1))
         return cls(
@@ -137,10 +138,10 @@ def _shares(weights: Float64[np.ndarray, " n"]) -> Float64[np.ndarray, " n"]:
 
 
 def _read(
-    library: Library, cells: Int[np.ndarray, " n_cells"], track: Track
+    library: Library, cells: Int[np.ndarray, " n_cells"], track: Track, engine: Engine
 ) -> dict[str, np.ndarray]:
     read = partial(_read_one, library, cells, np.flatnonzero(body_mask(library.grid)))
-    rows = list(run(read, range(len(library)), label="Basis samples", track=track))
+    rows = list(run(read, range(len(library)), label="Basis samples", track=track, engine=engine))
     values, body = zip(*rows, strict=True)
     return {"values": np.stack(values, axis=1), "body": np.stack(body)}
 

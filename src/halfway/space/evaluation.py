@@ -36,7 +36,7 @@ from ..brdf.image_metrics import (
     to_lab,
 )
 from ..library import JUDGING_SCENE, PACING_SCENE, BasisImages, BasisSamples, Library
-from ..tasks import Track, run, silent
+from ..tasks import THREADS, Engine, Track, run, silent
 from .pace import perceptual
 from .route import Route
 from .spaces import Space
@@ -77,12 +77,19 @@ class Bench:
     samples: BasisSamples
 
     @classmethod
-    def fit(cls, library: Library, *, cache: Path | None = None, track: Track = silent) -> "Bench":
+    def fit(
+        cls,
+        library: Library,
+        *,
+        cache: Path | None = None,
+        track: Track = silent,
+        engine: Engine = THREADS,
+    ) -> "Bench":
         """The bench of ``library``; a ``cache`` folder keeps it for the next time."""
         return cls(
-            BasisImages.fit(library, PACING_SCENE, cache=cache, track=track),
-            BasisImages.fit(library, JUDGING_SCENE, cache=cache, track=track),
-            BasisSamples.fit(library, cache=cache, track=track),
+            BasisImages.fit(library, PACING_SCENE, cache=cache, track=track, engine=engine),
+            BasisImages.fit(library, JUDGING_SCENE, cache=cache, track=track, engine=engine),
+            BasisSamples.fit(library, cache=cache, track=track, engine=engine),
         )
 
 
@@ -128,12 +135,15 @@ def evaluate(
     *,
     paces: Mapping[str, Pace] | None = None,
     track: Track = silent,
+    engine: Engine = THREADS,
 ) -> Evaluation:
     """The measures of ``space`` on ``pairs``, with jumps at the uniform and the perceptual pace or at those given."""
     if paces is None:
         paces = {"uniform": uniform, "perceptual": partial(perceptual, images=bench.pacing)}
     measure = partial(_measure, space, bench, _Measured.of(bench), tuple(paces.values()))
-    rows = list(run(measure, list(pairs), label=f"Evaluating {space.name}", track=track))
+    rows = list(
+        run(measure, list(pairs), label=f"Evaluating {space.name}", track=track, engine=engine)
+    )
     distance, detour, jumps, hue_excursion, realism, others = map(np.array, zip(*rows, strict=True))
     jump, cielab_jump, judged_jump = (
         dict(zip(paces, each, strict=True)) for each in jumps.transpose(2, 1, 0)

@@ -18,7 +18,7 @@ from ..brdf.image_metrics import appearance, cielab_difference
 from ..brdf.metrics import MAPPINGS
 from ..errors import OutsideHullError
 from ..library import Pca
-from ..tasks import Track, run, silent
+from ..tasks import THREADS, Engine, Track, run, silent
 from .anchored import anchored_scale
 from .evaluation import Bench
 from .hull import nearest_in_hull
@@ -50,11 +50,21 @@ class LeaveOneOut:
         }
 
 
-def leave_one_out(name: str, place: Place, bench: Bench, *, track: Track = silent) -> LeaveOneOut:
+def leave_one_out(
+    name: str, place: Place, bench: Bench, *, track: Track = silent, engine: Engine = THREADS
+) -> LeaveOneOut:
     """The errors of the space called ``name``, which places material i at ``place(i)``."""
     names = bench.samples.names
     measure = partial(_errors, place, bench)
-    rows = list(run(measure, range(len(names)), label=f"Leaving one out of {name}", track=track))
+    rows = list(
+        run(
+            measure,
+            range(len(names)),
+            label=f"Leaving one out of {name}",
+            track=track,
+            engine=engine,
+        )
+    )
     return LeaveOneOut(name, names, {key: np.array([row[key] for row in rows]) for key in rows[0]})
 
 

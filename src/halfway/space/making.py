@@ -4,7 +4,7 @@ from pathlib import Path
 
 from ..errors import SpaceError
 from ..library import BasisImages, BasisSamples, Library, Pca
-from ..tasks import Track, silent
+from ..tasks import THREADS, Engine, Track, silent
 from .anchored import DETOUR, AnchoredSpace
 from .spaces import LinearSpace, PaperSpace, Space
 
@@ -18,13 +18,14 @@ def anchored_space(
     detour: float = DETOUR,
     cache: Path | None = None,
     track: Track = silent,
+    engine: Engine = THREADS,
 ) -> AnchoredSpace:
     """The anchored space, fitted to ``library``; ``cache`` keeps what is dear to fit."""
     return AnchoredSpace.fit(
         library,
-        Pca.fit(library, cache=cache, track=track),
-        BasisImages.fit(library, cache=cache, track=track),
-        BasisSamples.fit(library, cache=cache, track=track),
+        Pca.fit(library, cache=cache, track=track, engine=engine),
+        BasisImages.fit(library, cache=cache, track=track, engine=engine),
+        BasisSamples.fit(library, cache=cache, track=track, engine=engine),
         n_components=n_components,
         detour=detour,
     )
@@ -38,6 +39,7 @@ def make_space(
     detour: float = DETOUR,
     cache: Path | None = None,
     track: Track = silent,
+    engine: Engine = THREADS,
 ) -> Space:
     """The space called ``name``, fitted to ``library``; ``cache`` keeps what is dear to fit.
 
@@ -49,12 +51,17 @@ def make_space(
     match name:
         case "anchored":
             return anchored_space(
-                library, n_components=n_components, detour=detour, cache=cache, track=track
+                library,
+                n_components=n_components,
+                detour=detour,
+                cache=cache,
+                track=track,
+                engine=engine,
             )
         case "linear":
             return LinearSpace(library.name, library.names)
         case "paper":
-            pca = Pca.fit(library, cache=cache, track=track)
+            pca = Pca.fit(library, cache=cache, track=track, engine=engine)
             return PaperSpace.fit(library, pca, n_components=n_components)
         case _:
             raise SpaceError(f"there is no space {name!r}: expected one of {', '.join(SPACES)}.")
