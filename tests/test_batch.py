@@ -5,7 +5,7 @@ import json
 import pytest
 
 from halfway.errors import FormatError, OutputError
-from halfway.export import Batch, Checksum, Manifest, verify
+from halfway.batch import Batch, Checksum, Manifest, verify
 
 MADE = {"by": "test"}
 OUTPUTS = {"a.txt": {"t": 0}, "b.txt": {"t": 1}, "deep/c.txt": {"t": 2}}

@@ -1,9 +1,11 @@
 """The materials that words on the command line stand for, each with a label and its table when needed."""
 
+import re
+from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from ..brdf import Brdf, TabularBrdf, tabulate
 from ..formats import read_brdf
@@ -22,6 +24,10 @@ class Material(NamedTuple):
     label: str
     load: Callable[[], Brdf]
     """As its file has it, or mixed."""
+    of: Any
+    """What it is, as JSON, with what changes when it does: a library's checksum, a file's time."""
+    stem: str
+    """What a file about it is called, before the suffix."""
     library: Library | None = None
     recipe: Recipe | None = None
 
@@ -45,6 +51,17 @@ def spread(materials: Sequence[Material], n: int) -> list[Material]:
     return [materials[round(i * (len(materials) - 1) / max(1, n - 1))] for i in range(n)]
 
 
+def file_names(materials: Sequence[Material], suffix: str) -> list[str]:
+    """A file name for each material: ``gold-paint.png``; those that share a name are counted."""
+    seen = Counter[str]()
+    names: list[str] = []
+    for material in materials:
+        stem = re.sub(r"[^\w.+-]+", "-", material.stem).strip("-.") or "material"
+        seen[stem] += 1
+        names.append(f"{stem}-{seen[stem]}{suffix}" if seen[stem] > 1 else f"{stem}{suffix}")
+    return names
+
+
 def _materials(word: str) -> Iterator[Material]:
     path = Path(word)
     if (path / "recipes.json").exists():
@@ -54,15 +71,13 @@ def _materials(word: str) -> Iterator[Material]:
     elif is_library(word) and _names_no_material(word):
         library = open_library(word)
         for name in library.names:
-            yield Material(name, partial(library.brdf, name))
+            yield Material(name, partial(library.brdf, name), _of(library, {name: 1.0}), name)
     elif path.is_dir():
-        raise ArgumentError(
-            f"{path} is a folder without recipes.json: expected a route's folder, a file of a BRDF, or LIB:NAME."
-        )
+        yield from _folder(path)
     elif path.suffix == ".json" or ".json:" in word:
         yield _mixed([word])
     elif path.exists():
-        yield Material(path.stem, partial(read_brdf, path))
+        yield _file(path)
     elif path.suffix in FILES:
         raise ArgumentError(f"there is no file {path}: see where you are, or name a material.")
     else:
@@ -77,7 +92,29 @@ def _names_no_material(word: str) -> bool:
 def _mixed(words: Sequence[str]) -> Material:
     library, recipe = to_recipe(words)
     label = recipe.names[0] if len(recipe.names) == 1 else words[-1]
-    return Material(label, partial(Mixer(library).mix, recipe), library, recipe)
+    of = _of(library, recipe.to_json()["weights"])
+    return Material(label, partial(Mixer(library).mix, recipe), of, label, library, recipe)
+
+
+def _of(library: Library, weights: Any) -> Any:
+    return {"library": library.name, "library_checksum": library.checksum, "weights": weights}
+
+
+def _file(path: Path) -> Material:
+    status = path.stat()
+    of = {"file": str(path), "bytes": status.st_size, "modified": status.st_mtime_ns}
+    return Material(path.stem, partial(read_brdf, path), of, path.stem)
+
+
+def _folder(folder: Path) -> Iterator[Material]:
+    """The files of BRDFs in it."""
+    files = sorted(path for path in folder.iterdir() if path.suffix in FILES)
+    if not files:
+        raise ArgumentError(
+            f"{folder} is a folder without recipes.json and without {', '.join(FILES)} files: "
+            "expected a route's folder, files of BRDFs, or LIB:NAME."
+        )
+    yield from map(_file, files)
 
 
 def _route(path: Path) -> Iterator[Material]:
@@ -93,5 +130,7 @@ def _route(path: Path) -> Iterator[Material]:
             f"{path} is no route: expected recipes.json as `halfway route` writes it."
         ) from None
     mixer = Mixer(library)
-    for label, recipe in entries:
-        yield Material(label, partial(mixer.mix, recipe), library, recipe)
+    digits = max(3, len(str(len(entries) - 1)))
+    for i, (label, recipe) in enumerate(entries):
+        of, stem = _of(library, recipe.to_json()["weights"]), f"{i:0{digits}d}"
+        yield Material(label, partial(mixer.mix, recipe), of, stem, library, recipe)

@@ -1,13 +1,13 @@
 """``halfway render``: pictures of materials."""
 
-from collections.abc import Sequence
-from enum import StrEnum
+from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING
 
-import typer
-
+from . import options
 from .console import cache_folder, say, track
+from .options import Layout, PictureFormat, Quality
 
 if TYPE_CHECKING:
     import numpy as np
@@ -16,66 +16,33 @@ if TYPE_CHECKING:
     from .materials import Material
 
 
-class Layout(StrEnum):
-    STRIP = "strip"
-    SHEET = "sheet"
-
-
-class Quality(StrEnum):
-    preview = "preview"
-    normal = "normal"
-    final = "final"
-
-
 def render(
-    words: Annotated[
-        list[str],
-        typer.Argument(
-            metavar="WHAT...",
-            help="Files, LIB:NAME, names, recipes, recipe files, a route's folder.",
-        ),
-    ],
-    output: Annotated[
-        Path,
-        typer.Option(
-            "--output", "-o", metavar="IMAGE", help=".png or .exr; .webp, .gif, .mp4 to animate."
-        ),
-    ],
-    scene: Annotated[str, typer.Option(help="teapot, spheres, sphere or trio.")] = "teapot",
-    env: Annotated[
-        Path | None, typer.Option(help="Environment (.hdr, .exr) in place of the studio.")
-    ] = None,
-    mesh: Annotated[
-        Path | None, typer.Option(help="Mesh (.ply, .obj) in place of the object.")
-    ] = None,
-    size: Annotated[
-        str, typer.Option(metavar="PIXELS", help="Of one picture: 384, or 640x480.")
-    ] = "384",
-    quality: Annotated[
-        Quality, typer.Option(help="preview: 16 samples, denoised; normal: 64; final: 256.")
-    ] = Quality.normal,
-    spp: Annotated[
-        int | None, typer.Option(help="Samples per pixel, instead of the quality's.")
-    ] = None,
-    denoise: Annotated[
-        bool | None, typer.Option(help="Take the noise out, or not, instead of the quality's.")
-    ] = None,
-    bounces: Annotated[
-        int | None, typer.Option(help="Of light between surfaces; 1 is direct light.")
-    ] = None,
-    n: Annotated[int, typer.Option("-n", help="Pictures of a longer route in a strip.")] = 8,
-    layout: Annotated[Layout, typer.Option(help="How several pictures lie in one.")] = Layout.STRIP,
-    exposure: Annotated[float, typer.Option(help="In stops.")] = 0.0,
-    seed: Annotated[int, typer.Option(help="The same seed gives the same picture.")] = 0,
-    fps: Annotated[int, typer.Option(help="Frames per second of an animation.")] = 12,
+    words: options.What,
+    output: options.Image,
+    scene: options.SceneName = "teapot",
+    env: options.Environment = None,
+    mesh: options.Mesh = None,
+    size: options.Size = "384",
+    quality: options.RenderQuality = Quality.normal,
+    spp: options.Spp = None,
+    denoise: options.Denoise = None,
+    bounces: options.Bounces = None,
+    n: options.InStrip = 8,
+    layout: options.Arrangement = Layout.STRIP,
+    exposure: options.Exposure = 0.0,
+    seed: options.Seed = 0,
+    fps: options.Fps = 12,
+    format: options.Pictures = PictureFormat.png,
 ) -> None:
     """Render materials in Mitsuba 3.
 
-    With direct light (teapot, spheres, sphere) a route costs one render per measured material it touches.
+    With direct light (teapot, spheres, sphere) a route costs one render per measured material it touches. Into a
+    folder, the same command again goes on where it stopped.
 
     \b
     halfway render gold-paint teflon -o two.png
     halfway render fabric -o fabric.webp --scene spheres
+    halfway render fabric -o frames --format exr
     halfway render new.binary -o new.png --size 1024 --quality final
     halfway render teflon chrome gold-paint -o three.png --scene trio
     """
@@ -84,8 +51,6 @@ def render(
     from .materials import spread, to_materials
 
     materials = to_materials(words)
-    animated = output.suffix in pictures.ANIMATED and len(materials) > 1
-    chosen = materials if animated or layout is Layout.SHEET else spread(materials, n)
     default = QUALITY[quality]
     renderer = Renderer(
         scene,
@@ -97,39 +62,84 @@ def render(
         mesh=mesh,
         bounces=bounces,
     )
-    together = renderer.scene.n_materials > 1 and len(chosen) == renderer.scene.n_materials
-    if together:
-        images = [renderer.picture([material.table() for material in chosen])]
+    if not output.suffix:
+        _render_folder(output, renderer, materials, format, exposure)
+    elif output.suffix in pictures.ANIMATED and len(materials) > 1:
+        paint = _painter(renderer, materials)
+        frames = map(paint, track(materials, "Frames", len(materials)))
+        pictures.animate(output, frames, fps=fps, exposure=exposure)
+        say(f"{output}: {len(materials)} frames of the {scene} scene")
     else:
-        images = _pictures(renderer, chosen)
-    labels = [material.label for material in chosen]
-    if animated:
-        pictures.animate(output, images, fps=fps, exposure=exposure)
-    elif len(images) == 1:
+        chosen = materials if layout is Layout.SHEET else spread(materials, n)
+        _render_image(output, renderer, chosen, layout, exposure)
+
+
+def _render_folder(
+    folder: Path,
+    renderer: "Renderer",
+    materials: Sequence["Material"],
+    format: PictureFormat,
+    exposure: float,
+) -> None:
+    from halfway.render import Frame, write_frames
+
+    from .materials import file_names
+
+    paint = _painter(renderer, materials)
+    frames = [
+        Frame(name, material.of, partial(paint, material))
+        for name, material in zip(file_names(materials, f".{format}"), materials, strict=True)
+    ]
+    written = write_frames(folder, renderer, frames, exposure=exposure, track=track)
+    kept = f", {written.n_kept:,} kept" if written.n_kept else ""
+    pictures = "picture" if written.n_written == 1 else "pictures"
+    say(f"{folder}: {written.n_written:,} {pictures} of the {renderer.scene.name} scene{kept}")
+
+
+def _render_image(
+    output: Path,
+    renderer: "Renderer",
+    materials: Sequence["Material"],
+    layout: Layout,
+    exposure: float,
+) -> None:
+    """One picture; several materials are dressed in together where the scene takes so many, else laid side by side."""
+    from halfway.render import pictures
+
+    n_objects = renderer.scene.n_materials
+    if len(materials) > 1 and len(materials) == n_objects:
+        images = [renderer.picture([material.table() for material in materials])]
+    else:
+        paint = _painter(renderer, materials)
+        images = list(map(paint, track(materials, "Pictures", len(materials))))
+    if len(images) == 1:
         pictures.write(output, images[0], exposure=exposure)
     else:
         arrange = pictures.strip if layout is Layout.STRIP else pictures.sheet
+        labels = [material.label for material in materials]
         pictures.write(output, arrange(images, labels=labels, exposure=exposure))
-    what = "frames" if animated else "picture" if len(images) == 1 else "pictures"
-    say(f"{output}: {len(images)} {what} of the {scene} scene")
+    what = "picture" if len(images) == 1 else "pictures"
+    say(f"{output}: {len(images)} {what} of the {renderer.scene.name} scene")
 
 
-def _pictures(renderer: "Renderer", materials: Sequence["Material"]) -> list["np.ndarray"]:
-    """One picture of each material; mixes of few materials from the pictures of those."""
+def _painter(
+    renderer: "Renderer", materials: Sequence["Material"]
+) -> Callable[["Material"], "np.ndarray"]:
+    """What makes the picture of one of ``materials``; mixes of few materials from the pictures of those."""
     from halfway.render import BasisPictures
 
     libraries = {id(material.library): material.library for material in materials}
     names = {name for material in materials if material.recipe for name in material.recipe.names}
     (library, *others) = libraries.values()
     if library is None or others or not renderer.linear or len(names) > len(materials):
-        return [
-            renderer.picture(material.table())
-            for material in track(materials, "Pictures", len(materials))
-        ]
+        return lambda material: renderer.picture(material.table())
     basis = BasisPictures(renderer, library.brdf, cache=cache_folder())
-    basis.render(sorted(names), track=track)
-    recipes = [material.recipe for material in materials if material.recipe]
-    return [basis.picture(recipe.names, recipe.weights) for recipe in recipes]
+
+    def paint(material: "Material") -> "np.ndarray":
+        assert material.recipe is not None  # a material of a library has one
+        return basis.picture(material.recipe.names, material.recipe.weights)
+
+    return paint
 
 
 def _size(text: str) -> tuple[int, int]:

@@ -25,7 +25,7 @@ def verify(
     halfway verify metal
     halfway verify frames --json
     """
-    from halfway.export import verify as verified
+    from halfway.batch import verify as verified
 
     found = verified(folder, track=track)
     kinds = {"missing": found.missing, "changed": found.changed, "foreign": found.foreign}

@@ -19,6 +19,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ..batch import Batch, Checksum
 from ..brdf import TabularBrdf
 from ..errors import OutputError
 from ..files import replacing
@@ -28,8 +29,6 @@ from ..library import Library
 from ..space import Mixer, Recipe, Route
 from ..tasks import Track, run, silent
 from . import zarr_tables
-from .batch import Batch
-from .manifest import Checksum
 
 FORMATS = ("none", "merl", "bsdf", "zarr")
 RECIPES = "recipes.json"

@@ -3,6 +3,7 @@
 from . import pictures
 from .basis import BasisPictures
 from .doctor import Finding, doctor
+from .frames import Frame, write_frames
 from .renderer import QUALITY, Renderer
 from .scenes import SCENES, Scene
 from .variant import register
@@ -12,9 +13,11 @@ __all__ = [
     "SCENES",
     "BasisPictures",
     "Finding",
+    "Frame",
     "Renderer",
     "Scene",
     "doctor",
     "pictures",
     "register",
+    "write_frames",
 ]
