@@ -1,13 +1,18 @@
-// The page that `halfway view` serves: one explorer that fills the window, its place in the address.
+// The page that `halfway view` serves, or writes: one explorer that fills the window, its place in the address.
 
-import { http, Problem } from "./api/client";
+import { Problem } from "./api/client";
+import { files } from "./api/files";
+import { http } from "./api/http";
 import { mount } from "./mount";
 import type { Theme } from "./state";
 import "./styles/window.css";
 
 const THEME = "halfway-theme";
 
-mount(document.querySelector<HTMLElement>("#app")!, http, {
+// A page that was written says where its data are.
+const data = document.querySelector<HTMLMetaElement>("meta[name=halfway-data]")?.content;
+
+mount(document.querySelector<HTMLElement>("#app")!, data ? files(data) : http, {
   fragment: location.hash,
   onFragment: (fragment) => history.replaceState(null, "", fragment),
   address: () => location.href,

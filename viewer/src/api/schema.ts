@@ -110,3 +110,42 @@ export interface PlaceView {
   readonly point: readonly number[];
   readonly inside: boolean;
 }
+
+/** What a file of half floats holds. */
+export interface BlockFile {
+  readonly shape: readonly number[];
+  readonly scale: readonly [number, number, number];
+}
+
+/** A static explorer: the library, and what its files hold (see `halfway.server.static`). */
+export interface Folder {
+  readonly format: 1;
+  readonly library: LibrarySummary;
+  readonly thumbnails: BlockFile;
+  readonly environment: BlockFile;
+  readonly tables: readonly BlockFile[];
+}
+
+/** A Delaunay triangulation: the place x of a space is (x - origin) frame, among ``points``. */
+export interface TriangulationView {
+  readonly origin: readonly number[];
+  readonly frame: readonly (readonly number[])[];
+  readonly points: readonly (readonly number[])[];
+  readonly simplices: readonly (readonly number[])[];
+}
+
+/** A space of a static explorer. */
+export interface SpaceFile {
+  readonly view: SpaceView;
+  readonly triangulations: readonly TriangulationView[];
+  readonly nearest: boolean;
+}
+
+/** The way from one material to another in a space of a static explorer, at uniform pace. */
+export interface LegFile {
+  readonly names: readonly string[];
+  readonly knots: readonly number[];
+  readonly weights: WeightTable;
+  readonly pace_t: readonly number[];
+  readonly pace_length: readonly number[];
+}

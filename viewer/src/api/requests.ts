@@ -1,0 +1,69 @@
+// The server's API as a `Client`, over anything that carries requests: see halfway.server.app.
+// A mistake comes back as {"error": "one line"} and is thrown as a `Problem`.
+
+import { type Block, type Client, Problem } from "./client";
+
+export interface Request {
+  readonly method: "GET" | "POST";
+  readonly path: string;
+  /** JSON. */
+  readonly body?: string;
+  readonly signal?: AbortSignal;
+  readonly onProgress?: (share: number) => void;
+}
+
+export interface Answer {
+  readonly status: number;
+  /** By their names in lower case. */
+  readonly headers: ReadonlyMap<string, string>;
+  readonly body: ArrayBuffer;
+}
+
+export type Ask = (request: Request) => Promise<Answer>;
+
+export function clientOver(ask: Ask): Client {
+  const get = (path: string, signal?: AbortSignal) =>
+    said(ask, { method: "GET", path, ...(signal && { signal }) });
+  const post = (path: string, body: unknown, signal?: AbortSignal) =>
+    said(ask, { method: "POST", path, body: JSON.stringify(body), ...(signal && { signal }) });
+  return {
+    library: async () => json(await get("api/library")),
+    spaceView: async (space) => json(await get(`api/spaces/${encodeURIComponent(space)}`)),
+    route: async (space, pace, stops, signal) => {
+      const query = new URLSearchParams({ space, pace });
+      for (const stop of stops) query.append("stop", stop);
+      return json(await get(`api/route?${query}`, signal));
+    },
+    place: async (space, point, signal) => json(await post("api/place", { space, point }, signal)),
+    thumbnails: async () => block(await get("api/thumbnails")),
+    environment: async () => block(await get("api/environment")),
+    table: async (name, onProgress = () => {}) =>
+      block(await said(ask, { method: "GET", path: `api/tables/${encodeURIComponent(name)}`, onProgress })),
+    exported: async (format, recipe) =>
+      new Blob([(await post(`api/export/${encodeURIComponent(format)}`, recipe)).body]),
+  };
+}
+
+async function said(ask: Ask, request: Request): Promise<Answer> {
+  const answer = await ask(request);
+  if (answer.status >= 200 && answer.status < 300) return answer;
+  throw new Problem(errorIn(answer) ?? `The server answered ${answer.status} to ${request.path}.`);
+}
+
+function json<T>({ body }: Answer): T {
+  return JSON.parse(new TextDecoder().decode(body)) as T;
+}
+
+function block({ headers, body }: Answer): Block {
+  const numbers = (header: string) => (headers.get(header) ?? "").split(",").map(Number);
+  const [r = 1, g = 1, b = 1] = numbers("halfway-scale");
+  return { halfs: new Uint16Array(body), shape: numbers("halfway-shape"), scale: [r, g, b] };
+}
+
+function errorIn(answer: Answer): string | undefined {
+  try {
+    return json<{ error?: string }>(answer).error;
+  } catch {
+    return undefined;
+  }
+}
