@@ -5,6 +5,7 @@ Python's are the reference. ``viewer/tests`` reads the files, and ``tests/test_s
 
 import base64
 import json
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -30,6 +31,7 @@ def golden() -> dict[str, Any]:
         "albedo": _albedo(),
         "recipe": _recipe(),
         "colour": _colour(),
+        "static": _static(),
     }
 
 
@@ -136,6 +138,72 @@ def _recipe() -> dict[str, Any]:
         "route": to_view(route).model_dump(mode="json"),
         "recipes": [{"t": t, **recipe.to_json()} for t, recipe in zip(ts, recipes, strict=True)],
     }
+
+
+def _static() -> dict[str, Any]:
+    """What the page works out of files, and the server by itself: routes of legs, and places."""
+    from halfway.server.explorer import Explorer
+    from halfway.server.schema import Place
+    from halfway.server.static import triangulations
+
+    rng = np.random.default_rng(5)
+    tables = {
+        f"material-{i}": TabularBrdf(rng.gamma(0.5, size=(3, *GRID.shape)).astype(np.float32), GRID)
+        for i in range(10)
+    }
+    explorer = Explorer(ProceduralLibrary("golden", tables, grid=GRID))
+    spaces, places = {}, []
+    for name in ("anchored", "paper"):
+        view, found = explorer.space_view(name), triangulations(explorer.space(name))
+        spaces[name] = {
+            "view": view.model_dump(mode="json"),
+            "triangulations": [triangulation.model_dump(mode="json") for triangulation in found],
+        }
+        points = np.concatenate([embedding.points for embedding in view.embeddings], axis=1)
+        for weights in rng.dirichlet(np.full(10, 0.5), size=8):
+            # From the middle outwards: the first few are inside.
+            for reach in (1.0, 3.0):
+                point = points.mean(axis=0) + reach * (weights @ points - points.mean(axis=0))
+                place = Place(space=name, point=point.tolist())
+                answer = explorer.place(place).model_dump(mode="json")
+                places.append({**place.model_dump(mode="json"), "answer": answer})
+    return {
+        "names": list(tables),
+        "spaces": spaces,
+        "places": places,
+        "routes": [_joined(explorer, pace) for pace in ("uniform", "perceptual")],
+    }
+
+
+def _joined(explorer: Any, pace: str) -> dict[str, Any]:
+    """A route of three legs, one of them against the order of the library; lengths are made up."""
+    from halfway.server.explorer import to_view
+    from halfway.server.schema import LegFile
+    from halfway.space import paced
+
+    space, stops = explorer.space("paper"), ["material-0", "material-7", "material-2", "material-9"]
+    route = Route.through(space, stops)
+    legs, ts, lengths, covered = [], [], [], 0.0
+    for i, (a, b) in enumerate(pairwise(stops)):
+        leg = to_view(Route.through(space, [a, b]))
+        t = np.union1d(leg.knots, np.linspace(0, 1, 5))
+        length = np.append(0.0, np.cumsum((i + 1) * np.diff(t) * (1.5 + np.sin(9 * t[1:]))))
+        legs.append(
+            LegFile(
+                names=leg.names,
+                knots=leg.knots,
+                weights=leg.weights,
+                pace_t=t.tolist(),
+                pace_length=length.tolist(),
+            ).model_dump(mode="json")
+        )
+        last = i == len(stops) - 2
+        ts.append((i + (t if last else t[:-1])) / (len(stops) - 1))
+        lengths.append(covered + (length if last else length[:-1]))
+        covered += length[-1]
+    if pace == "perceptual":
+        route = paced(route, np.concatenate(ts), np.concatenate(lengths))
+    return {"legs": legs, "route": to_view(route).model_dump(mode="json")}
 
 
 def _colour() -> dict[str, list[float]]:

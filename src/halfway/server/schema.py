@@ -186,6 +186,8 @@ class TriangulationView(Model):
     frame: list[list[float]]
     points: list[list[float]]
     """In the library's order."""
+    spread: list[float]
+    """What is one along each of their coordinates, where the nearest place of the hull is sought."""
     simplices: list[list[int]]
 
 
@@ -195,8 +197,6 @@ class SpaceFile(Model):
     view: SpaceView
     triangulations: list[TriangulationView]
     """One for all channels, one for each, or none where there are no places between routes."""
-    nearest: bool
-    """Whether a place outside the hull stands for the nearest inside; if not it is a mistake."""
 
 
 class LegFile(Model):

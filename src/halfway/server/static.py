@@ -150,7 +150,6 @@ def _write_space(files: _Files, explorer: Explorer, name: str, track: Track) -> 
         SpaceFile(
             view=explorer.space_view(name),
             triangulations=triangulations(space),
-            nearest=isinstance(space, AnchoredSpace),
         ),
     )
     pairs = list(combinations(range(len(space.names)), 2))
@@ -161,26 +160,37 @@ def _write_space(files: _Files, explorer: Explorer, name: str, track: Track) -> 
 
 def triangulations(space: Space) -> list[TriangulationView]:
     """What the page needs to find the weights of a place."""
+    with warnings.catch_warnings():
+        # Said already, when the space was made.
+        warnings.simplefilter("ignore", DegenerateSpaceWarning)
+        return _triangulations(space)
+
+
+def _triangulations(space: Space) -> list[TriangulationView]:
     match space:
         case AnchoredSpace():
-            with warnings.catch_warnings():
-                # Said already, when the space was made.
-                warnings.simplefilter("ignore", DegenerateSpaceWarning)
-                scaled = Triangulation.of(space.points * space.scale)
-            return [_triangulation(scaled, space.scale)]
+            scaled = Triangulation.of(space.points * space.scale)
+            return [_triangulation(scaled, space.scale, spread=np.ones(scaled.n_dimensions))]
         case PaperSpace():
-            return [_triangulation(t, np.ones(t.points.shape[1])) for t in space.triangulations]
+            return [
+                _triangulation(Triangulation.of(t.points), np.ones(t.points.shape[1]))
+                for t in space.triangulations
+            ]
         case _:
             return []
 
 
-def _triangulation(triangulation: Triangulation, scale: np.ndarray) -> TriangulationView:
-    """The triangulation of scaled points, of the points as they are."""
+def _triangulation(
+    triangulation: Triangulation, scale: np.ndarray, *, spread: np.ndarray | None = None
+) -> TriangulationView:
+    """The triangulation of scaled points, of the points as they are; ``spread`` is theirs unless it is given."""
     origin, basis = triangulation.origin, triangulation.basis
+    flat = (triangulation.points - origin) @ basis
     return TriangulationView(
         origin=(origin / scale).tolist(),
         frame=(scale[:, None] * basis).tolist(),
-        points=((triangulation.points - origin) @ basis).tolist(),
+        points=flat.tolist(),
+        spread=(flat.std(axis=0) if spread is None else spread).tolist(),
         simplices=triangulation.simplices.tolist(),
     )
 

@@ -5,7 +5,7 @@ from .evaluation import Bench, Evaluation, evaluate, sample_pairs
 from .leave_one_out import AnchoredPlace, LeaveOneOut, PaperPlace, leave_one_out
 from .making import SPACES, anchored_space, make_space
 from .mix import Mixer, mix
-from .pace import lengths, perceptual
+from .pace import lengths, paced, perceptual
 from .recipe import Recipe
 from .route import Route
 from .spaces import LinearSpace, PaperSpace, Space
@@ -34,6 +34,7 @@ __all__ = [
     "lengths",
     "make_space",
     "mix",
+    "paced",
     "perceptual",
     "sample_pairs",
 ]

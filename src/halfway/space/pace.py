@@ -38,10 +38,7 @@ Places = Float64[np.ndarray, "..."]
 
 def perceptual(route: Route, images: BasisImages) -> Route:
     """The same way at perceptual pace; a route on which nothing changes keeps its own."""
-    t, length = lengths(route, images)
-    u = _shares(t, length)
-    stop_ts = np.interp(route.stop_ts, t, u)
-    return replace(route, pace="perceptual", knots=u, weights=route.at(t), stop_ts=stop_ts)
+    return paced(route, *lengths(route, images))
 
 
 def lengths(route: Route, images: BasisImages) -> tuple[Places, Places]:
@@ -64,13 +61,14 @@ def lengths(route: Route, images: BasisImages) -> tuple[Places, Places]:
     return t, np.append(0.0, np.cumsum(steps))
 
 
-def _shares(t: Places, length: Places) -> Places:
-    """The share u of its length that a route has covered at each t."""
-    steps = np.diff(length)
-    if not length[-1]:
-        return t
-    u = np.append(0.0, np.cumsum(steps + LEAST * length[-1]))
-    return u / u[-1]
+def paced(route: Route, t: Places, length: Places) -> Route:
+    """The same way, equal lengths in equal times; ``length`` has been covered at each ``t``."""
+    u = t
+    if length[-1]:
+        u = np.append(0.0, np.cumsum(np.diff(length) + LEAST * length[-1]))
+        u /= u[-1]
+    stop_ts = np.interp(route.stop_ts, t, u)
+    return replace(route, pace="perceptual", knots=u, weights=route.at(t), stop_ts=stop_ts)
 
 
 def _looks(route: Route, images: BasisImages, t: Places) -> Lab:

@@ -64,7 +64,7 @@ async function leg(
 
 /** The material at a place, as halfway.server.explorer finds it. */
 export function placed(
-  { view, triangulations, nearest: clamps }: SpaceFile,
+  { view, triangulations }: SpaceFile,
   library: string,
   names: readonly string[],
   point: readonly number[],
@@ -75,14 +75,10 @@ export function placed(
   const size = point.length / triangulations.length;
   const weights = triangulations.map((triangulation, i) => {
     const place = point.slice(i * size, (i + 1) * size);
-    const found = weightsAt(triangulation, place) ?? (clamps ? nearest(triangulation, place) : null);
-    if (found !== null) return found;
-    throw new Problem(
-      `the point is outside the hull of the ${names.length} materials, so it is no mix of them: choose one between them.`,
-    );
+    return weightsAt(triangulation, place) ?? nearest(triangulation, place);
   });
   const recipe = toRecipe(names, weights);
-  const reached = clamps ? pointOf(view, names, recipe) : point;
+  const reached = pointOf(view, names, recipe);
   const inside = extents(view).every((extent, k) => Math.abs(reached[k]! - point[k]!) <= INSIDE * extent);
   return { recipe: toDocument(library, recipe), point: reached, inside };
 }

@@ -131,6 +131,7 @@ export interface TriangulationView {
   readonly origin: readonly number[];
   readonly frame: readonly (readonly number[])[];
   readonly points: readonly (readonly number[])[];
+  readonly spread: readonly number[];
   readonly simplices: readonly (readonly number[])[];
 }
 
@@ -138,7 +139,6 @@ export interface TriangulationView {
 export interface SpaceFile {
   readonly view: SpaceView;
   readonly triangulations: readonly TriangulationView[];
-  readonly nearest: boolean;
 }
 
 /** The way from one material to another in a space of a static explorer, at uniform pace. */

@@ -27,7 +27,9 @@ export function weightsAt(triangulation: TriangulationView, place: Vector): numb
 /** Weights of the place of the hull that is nearest. */
 export function nearest(triangulation: TriangulationView, place: Vector): number[] {
   const x = flat(triangulation, place);
-  const towards = triangulation.points.map((point) => point.map((y, k) => y - x[k]!));
+  const towards = triangulation.points.map((point) =>
+    point.map((y, k) => (y - x[k]!) / triangulation.spread[k]!),
+  );
   const scale = Math.max(...towards.flat().map(Math.abs)) || 1;
   const columns = towards.map((column) => [...column.map((y) => y / scale), 1]);
   const weights = nonNegative(columns, [...x.map(() => 0), 1]);
