@@ -1,0 +1,86 @@
+"""The material of glTF 2.0: metallic-roughness, with index, specular and clearcoat.
+
+    base        mix(dielectric, metal; metallic)
+    dielectric  (1 - w max_channel F) base_color/pi + w F V D,      F = f0 + (1 - f0) S, f0 = min(1, specular_color f0(ior))
+    metal       (base_color + (1 - base_color) S) V D
+    coated      mix(base, V D of the coat; clearcoat (.04 + .96 (1 - cos_o)^5))
+
+    V D = D(a) G1(cos_i) G1(cos_o) / (4 cos_i cos_o),   a = roughness^2,    S = (1 - cos theta_d)^5,    w = specular
+
+The base is reciprocal. The coat takes its share of what ``wo`` sees, as the extension says; that is not.
+
+Source: Khronos Group, glTF 2.0 specification, appendix B; KHR_materials_ior, KHR_materials_specular,
+KHR_materials_clearcoat, the sections "Implementation".
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, ClassVar, Self
+
+import numpy as np
+
+from .._types import Angle
+from .microfacet import f0_of_ior, ggx, schlick, smith
+from .model import ROUGHNESSES, AnalyticModel, Colour, Range, channels
+
+LEAST_WIDTH = 1e-6
+COAT_F0 = 0.04
+
+
+@dataclass(frozen=True, eq=False)
+class Gltf(AnalyticModel):
+    """The parameters of a glTF material, in the order of its extensions."""
+
+    base_color: Any
+    metallic: float = 0.0
+    roughness: float = 1.0
+    ior: float = 1.5
+    specular: float = 1.0
+    specular_color: Any = 1.0
+    clearcoat: float = 0.0
+    clearcoat_roughness: float = 0.0
+
+    formula: ClassVar[str] = "glTF 2.0 metallic-roughness"
+    colours: ClassVar[frozenset[str]] = frozenset({"base_color", "specular_color"})
+    ranges: ClassVar = {
+        "base_color": Range(0, 1, 0.5),
+        "metallic": Range(0, 1, 0),
+        "roughness": Range(0.02, 1, 0.5),
+        "ior": Range(1, 3, 1.5),
+        "specular": Range(0, 1, 1),
+        "specular_color": Range(0, 1, 1),
+        "clearcoat": Range(0, 1, 0),
+        "clearcoat_roughness": Range(0.02, 1, 0.1),
+    }
+
+    @classmethod
+    def starts(cls, body: Colour, glossy: Colour) -> Sequence[Self]:
+        coat = {"clearcoat": 0.1, "clearcoat_roughness": 0.1}
+        return [
+            cls(colour, roughness=r, metallic=m, specular=0.95, specular_color=0.95, **coat)
+            for r in ROUGHNESSES
+            for m, colour in ((0.1, body), (0.9, glossy))
+        ]
+
+    def at(
+        self, theta_h: Angle, theta_d: Angle, phi_d: Angle, cos_i: Angle, cos_o: Angle
+    ) -> np.ndarray:
+        del phi_d  # it acts through the two cosines
+        white = schlick(np.cos(theta_d))
+        lobe = _lobe(theta_h, cos_i, cos_o, self.roughness)
+        colour = channels(self.base_color, lobe)
+        f0 = np.minimum(1, channels(self.specular_color, lobe) * f0_of_ior(self.ior))
+        F = self.specular * (f0 + (1 - f0) * white)
+        dielectric = (1 - F.max(axis=0)) * colour / np.pi + F * lobe
+        metal = (colour + (1 - colour) * white) * lobe
+        f = dielectric + self.metallic * (metal - dielectric)
+        if not self.clearcoat:
+            return f
+        coat = _lobe(theta_h, cos_i, cos_o, self.clearcoat_roughness)
+        share = self.clearcoat * (COAT_F0 + (1 - COAT_F0) * schlick(cos_o))
+        return f + share * (coat - f)
+
+
+def _lobe(theta_h: Angle, cos_i: Angle, cos_o: Angle, roughness: float) -> Angle:
+    a = max(LEAST_WIDTH, roughness**2)
+    return ggx(theta_h, a) * smith(cos_i, a) * smith(cos_o, a) / (4 * cos_i * cos_o)

@@ -1,0 +1,134 @@
+"""The metric in which models are fitted.
+
+A surface is seen from five angles theta_o, and half vectors stand on a grid over the hemisphere, close together near the
+normal. Each half vector h says where the light is, wi = 2 (wo.h) h - wo.
+
+    d^2 = sum_j w_j (m(pi f_j cos_i) - m(pi g_j cos_i))^2  +  sum_k v_k (a_k^(1/3) - b_k^(1/3))^2
+
+The first sum runs over the pairs, of the radiance of a surface that light of irradiance pi falls on from wi: m(x) is the cube
+root of x up to the display's white, which is near to lightness, and 1 + ln(x)/3 above, with the same slope, so that a highlight
+counts and does not rule. w_j = (wo.h) dh / sqrt(sin theta_h): between the solid angle, in which a mirror-like lobe is nothing,
+and the angle alone. The second sum, of the same weight, runs over the directional albedos a and b that the same pairs integrate to:
+what a lobe adds under an even light, however narrow it is. v_k and w_j hold the share sin(2 theta_o) of a sphere's picture.
+
+Only measured pairs count. d is a root mean square in units of the lightness of white.
+"""
+
+from functools import cache
+from typing import NamedTuple, Self
+
+import numpy as np
+from jaxtyping import Bool, Float64
+
+from .._types import Directions
+from ..brdf import Brdf, hemisphere
+from ..errors import FormatError
+from ..halfdiff import HalfDiff, to_half_diff
+from .model import AnalyticModel, Colour, Vector
+
+VIEWS_DEGREES = (10.0, 30.0, 50.0, 65.0, 77.0)
+GRAZING_DEGREES = 85.0
+"""No light comes from beyond."""
+N_THETA_H, N_PHI_H = 28, 12
+BODY_DEGREES = 35.0
+"""Beyond, highlights are over."""
+
+Samples = Float64[np.ndarray, "3 n"]
+
+
+class Pairs(NamedTuple):
+    """Where tables and models are compared."""
+
+    wi: Directions
+    wo: Directions
+    angles: HalfDiff
+    weight: Vector
+    """The root of w_j, and sums of squares to 1."""
+    reflected: Float64[np.ndarray, "n_views n"]
+    """Takes f to the directional albedo of each view."""
+    view_weight: Vector
+
+    def of(self, model: AnalyticModel) -> Samples:
+        """Values of a model, in 1/sr."""
+        angles = self.angles
+        return model.at(angles.theta_h, angles.theta_d, angles.phi_d, self.wi[:, 2], self.wo[:, 2])
+
+
+class Target(NamedTuple):
+    """A material as the metric sees it."""
+
+    pairs: Pairs
+    known: Bool[np.ndarray, " n"]
+    """Pairs at which all channels are measured."""
+    samples: Samples
+    seen: Vector
+
+    @classmethod
+    def of(cls, brdf: Brdf, name: str) -> Self:
+        """What is to be fitted; negative samples count as 0.
+
+        Raises
+        ------
+        FormatError
+            When the material is measured nowhere the metric looks.
+        """
+        pairs = comparison_pairs()
+        samples = brdf.eval(pairs.wi, pairs.wo).T
+        known = np.asarray(np.isfinite(samples).all(axis=0))
+        if not known.any():
+            raise FormatError(
+                f"{name or 'the material'} is measured at none of the {len(known)} pairs of directions that a fit "
+                "looks at: expected a table of a whole material. `halfway check` says what is in it."
+            )
+        samples = np.where(known, np.maximum(samples, 0), 0)
+        return cls(pairs, known, samples, _seen(pairs, samples))
+
+    def difference(self, model: AnalyticModel) -> tuple[Vector, Vector]:
+        """The terms of d, of which d is the norm; and by how much each albedo is above 1."""
+        f = np.where(self.known, self.pairs.of(model), 0)
+        return _seen(self.pairs, f) - self.seen, np.maximum(
+            f @ self.pairs.reflected.T - 1, 0
+        ).ravel()
+
+    def body(self) -> Colour:
+        """The diffuse albedo, off the highlight."""
+        off = self.known & (self.pairs.angles.theta_h > np.radians(BODY_DEGREES))
+        return np.pi * np.median(self.samples[:, off], axis=1) if off.any() else np.full(3, 0.5)
+
+    def albedo(self) -> Colour:
+        """The whole albedo, seen from 30 degrees."""
+        return (self.samples @ self.pairs.reflected.T)[:, 1]
+
+
+@cache
+def comparison_pairs() -> Pairs:
+    """The pairs of directions and their weights."""
+    h, dh = map(np.asarray, hemisphere(N_THETA_H, N_PHI_H))
+    theta_o = np.radians(VIEWS_DEGREES)
+    wo = np.stack([np.sin(theta_o), np.zeros_like(theta_o), np.cos(theta_o)], axis=-1)
+    cos_d = wo @ h.T
+    wi = 2 * cos_d[..., None] * h - wo[:, None]
+    lit = (cos_d > 0) & (wi[..., 2] > np.cos(np.radians(GRAZING_DEGREES)))
+    view, node = np.nonzero(lit)
+    wi, wo, cos_d = wi[lit], wo[view], cos_d[lit]
+    shares = np.sin(2 * theta_o)
+    weight = shares[view] * cos_d * dh[node] / np.sqrt(np.hypot(h[node, 0], h[node, 1]))
+    reflected = np.zeros((len(theta_o), len(view)))
+    reflected[view, np.arange(len(view))] = 4 * cos_d * dh[node] * wi[:, 2]
+    return Pairs(
+        wi,
+        wo,
+        to_half_diff(wi, wo),
+        np.sqrt(weight / weight.sum()),
+        reflected,
+        np.sqrt(shares / shares.sum()),
+    )
+
+
+def _seen(pairs: Pairs, f: Samples) -> Vector:
+    """What the metric compares, weighted, so that d is the norm of a difference."""
+    bright = np.cbrt(np.pi * f * pairs.wi[:, 2])
+    bright = np.where(bright < 1, bright, 1 + np.log(np.maximum(bright, 1)))
+    albedo = np.cbrt(f @ pairs.reflected.T)
+    parts = (bright * pairs.weight, albedo * pairs.view_weight)
+    return np.concatenate([part.ravel() for part in parts]) / np.sqrt(3)

@@ -1,0 +1,95 @@
+"""What the models have in common: named parameters within bounds, as a flat vector for the optimiser.
+
+A model is a `Brdf`: it is evaluated, tabulated, checked and rendered as any other.
+"""
+
+from abc import abstractmethod
+from collections.abc import Mapping, Sequence
+from typing import Any, ClassVar, NamedTuple, Self
+
+import numpy as np
+from jaxtyping import Float64
+
+from .._types import Angle
+from ..brdf import IsotropicModel
+
+Vector = Float64[np.ndarray, " n"]
+Colour = Float64[np.ndarray, "3"]
+"""Linear RGB."""
+
+
+ROUGHNESSES = (0.1, 0.25, 0.45, 0.7)
+"""Where searches begin: the width of the main lobe is what makes the metric's valleys."""
+
+
+class Range(NamedTuple):
+    """Where a parameter may lie, and where it stands when it does nothing."""
+
+    low: float
+    high: float
+    neutral: float
+
+
+class AnalyticModel(IsotropicModel):
+    """A model of renderers: a frozen dataclass of numbers and colours (shape (3,), linear RGB)."""
+
+    ranges: ClassVar[Mapping[str, Range]]
+    """Of each parameter, in the order of the fields; a colour's range is that of each channel."""
+    colours: ClassVar[frozenset[str]]
+    """The parameters of three channels."""
+
+    @classmethod
+    @abstractmethod
+    def starts(cls, body: Colour, glossy: Colour) -> Sequence[Self]:
+        """Where a search may begin, for a material of this diffuse and this whole albedo."""
+
+    def __post_init__(self) -> None:
+        for name in self.colours:
+            value = np.array(np.broadcast_to(getattr(self, name), 3), np.float64)
+            value.flags.writeable = False
+            object.__setattr__(self, name, value)
+
+    @classmethod
+    def bounds(cls) -> tuple[Vector, Vector]:
+        """The lowest and the highest vector."""
+        low, high, _ = cls._spread()
+        return low, high
+
+    @classmethod
+    def neutral(cls) -> Vector:
+        """The vector of the parameters that do nothing."""
+        return cls._spread()[2]
+
+    @classmethod
+    def _spread(cls) -> tuple[Vector, Vector, Vector]:
+        rows = [cls.ranges[name] for name in cls.ranges for _ in range(cls._size(name))]
+        low, high, neutral = np.array(rows, np.float64).T
+        return low, high, neutral
+
+    @classmethod
+    def _size(cls, name: str) -> int:
+        return 3 if name in cls.colours else 1
+
+    @classmethod
+    def from_vector(cls, vector: Vector) -> Self:
+        """The model with the parameters of a vector."""
+        values: dict[str, Any] = {}
+        start = 0
+        for name in cls.ranges:
+            stop = start + cls._size(name)
+            values[name] = vector[start:stop] if name in cls.colours else float(vector[start])
+            start = stop
+        return cls(**values)
+
+    def to_vector(self) -> Vector:
+        """All parameters in the order of the fields."""
+        return np.concatenate([np.ravel(getattr(self, name)) for name in self.ranges])
+
+    def parameters(self) -> dict[str, float | list[float]]:
+        """The parameters by name; for JSON."""
+        return {name: np.asarray(getattr(self, name), np.float64).tolist() for name in self.ranges}
+
+
+def channels(colour: np.ndarray, like: Angle) -> np.ndarray:
+    """A colour, shaped to multiply an array of angles: (3, 1, ...)."""
+    return colour.reshape(3, *[1] * np.ndim(like))

@@ -1,0 +1,114 @@
+"""Mitsuba 3's ``principled``: the Disney model of 2012 and 2015, without its transmission.
+
+    f = specular + clearcoat + diffuse + sheen
+
+    specular   F D(r^2) G1(cos_i) G1(cos_o) / (4 cos_i cos_o)
+               F = (1 - m) ((1 - t) F_eta + t S(tint F0)) + m S(base_color)
+    clearcoat  c/4 S(.04) GTR1(.1 - .099 gloss) G1(cos_i) G1(cos_o)            shadowing of width 1/4
+    diffuse    (1 - m) base_color/pi [(1 - S_i/2)(1 - S_o/2) + R (S_i + S_o + S_i S_o (R - 1))],  R = 2 r cos^2 theta_d
+    sheen      (1 - m) s (1 - st + st tint) (1 - cos theta_d)^5
+
+with r roughness, m metallic, t spec_tint, S Schlick's mixture with white, F_eta the exact Fresnel term of the index that
+``specular`` stands for, and tint = base_color over its luminance. ``flatness`` leads the diffuse term over to
+1.25 (L_i L_o (1/(cos_i + cos_o) - 1/2) + 1/2),  L = 1 + (R/2 - 1) S_i, the same for o.
+
+Source: B. Burley, "Physically-Based Shading at Disney", SIGGRAPH course 2012, and "Extending the Disney BRDF to a BSDF
+with Integrated Subsurface Scattering", 2015; what Mitsuba makes of them: the page of its plugin ``principled``.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, ClassVar, Self
+
+import numpy as np
+
+from .._types import Angle
+from ..models.abc import fresnel
+from .microfacet import ggx, gtr1, schlick, smith
+from .model import ROUGHNESSES, AnalyticModel, Colour, Range, channels
+
+_LUMINANCE = np.array([0.212671, 0.715160, 0.072169])
+LEAST_WIDTH = 0.001
+"""Of the specular lobe, in Mitsuba."""
+
+
+@dataclass(frozen=True, eq=False)
+class Principled(AnalyticModel):
+    """The parameters of Mitsuba's ``principled``, under their names there."""
+
+    base_color: Any
+    roughness: float = 0.5
+    metallic: float = 0.0
+    specular: float = 0.5
+    spec_tint: float = 0.0
+    clearcoat: float = 0.0
+    clearcoat_gloss: float = 0.0
+    sheen: float = 0.0
+    sheen_tint: float = 0.0
+    flatness: float = 0.0
+
+    formula: ClassVar[str] = "Mitsuba principled"
+    colours: ClassVar[frozenset[str]] = frozenset({"base_color"})
+    ranges: ClassVar = {
+        "base_color": Range(0, 1, 0.5),
+        "roughness": Range(0.02, 1, 0.5),
+        "metallic": Range(0, 1, 0),
+        "specular": Range(0, 1, 0.5),
+        "spec_tint": Range(0, 1, 0),
+        "clearcoat": Range(0, 1, 0),
+        "clearcoat_gloss": Range(0, 1, 0),
+        "sheen": Range(0, 1, 0),
+        "sheen_tint": Range(0, 1, 0),
+        "flatness": Range(0, 1, 0),
+    }
+
+    @classmethod
+    def starts(cls, body: Colour, glossy: Colour) -> Sequence[Self]:
+        few = {"clearcoat": 0.1, "clearcoat_gloss": 0.5, "sheen": 0.05, "flatness": 0.2}
+        return [
+            cls(colour, roughness=r, metallic=m, spec_tint=0.1, sheen_tint=0.1, **few)
+            for r in ROUGHNESSES
+            for m, colour in ((0.1, body), (0.9, glossy))
+        ]
+
+    def at(
+        self, theta_h: Angle, theta_d: Angle, phi_d: Angle, cos_i: Angle, cos_o: Angle
+    ) -> np.ndarray:
+        del phi_d  # it acts through the two cosines
+        cos_d = np.cos(theta_d)
+        white = schlick(cos_d)
+        body = self._diffuse(cos_d, cos_i, cos_o) / np.pi
+        colour = channels(self.base_color, body)
+        tint = channels(self._tint(), body)
+        a = max(LEAST_WIDTH, self.roughness**2)
+        lobe = ggx(theta_h, a) * smith(cos_i, a) * smith(cos_o, a) / (4 * cos_i * cos_o)
+        coat = gtr1(theta_h, 0.1 - 0.099 * self.clearcoat_gloss) * smith(cos_i, 0.25)
+        coat = self.clearcoat / 4 * (0.04 + 0.96 * white) * coat * smith(cos_o, 0.25)
+        sheen = self.sheen * (1 + self.sheen_tint * (tint - 1)) * white
+        f = self._fresnel(cos_d, white, colour, tint)
+        return f * lobe + coat + (1 - self.metallic) * (colour * body + sheen)
+
+    def _diffuse(self, cos_d: Angle, cos_i: Angle, cos_o: Angle) -> Angle:
+        s_i, s_o = schlick(cos_i), schlick(cos_o)
+        retro = 2 * self.roughness * cos_d**2
+        f = (1 - s_i / 2) * (1 - s_o / 2) + retro * (s_i + s_o + s_i * s_o * (retro - 1))
+        if not self.flatness:
+            return f
+        flat = (1 + (retro / 2 - 1) * s_i) * (1 + (retro / 2 - 1) * s_o)
+        flat = 1.25 * (flat * (1 / (cos_i + cos_o) - 0.5) + 0.5)
+        return f + self.flatness * (flat - f)
+
+    def _fresnel(
+        self, cos_d: Angle, white: Angle, colour: np.ndarray, tint: np.ndarray
+    ) -> np.ndarray:
+        m, t = self.metallic, self.spec_tint
+        root = np.sqrt(0.08 * self.specular)
+        exact = fresnel(cos_d, (1 + root) / (1 - root))
+        f0 = tint * 0.08 * self.specular
+        tinted = f0 + (1 - f0) * white
+        metal = colour + (1 - colour) * white
+        return (1 - m) * ((1 - t) * exact + t * tinted) + m * metal
+
+    def _tint(self) -> np.ndarray:
+        luminance = float(self.base_color @ _LUMINANCE)
+        return self.base_color / luminance if luminance > 0 else np.ones(3)
