@@ -54,7 +54,7 @@ def bench_components(benchmark, library: StoredLibrary):
 
     benchmark.pedantic(fit, rounds=3)
     seconds = float(np.median([found["seconds"] for found in fits]))
-    tables = np.load(library.path / "tables.npy", mmap_mode="r")
+    tables = np.load(library.tables, mmap_mode="r")
     start = time.perf_counter()
     channel = np.nan_to_num(np.array(tables[0], np.float64))
     PCA(45, svd_solver="randomized", random_state=0).fit(channel)

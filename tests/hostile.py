@@ -37,7 +37,7 @@ def subjects(folder: Path) -> dict[str, Subject]:
     for i, name in enumerate(("clay", "chalk")):
         write_brdf(folder / "tables" / f"{name}.binary", _table(0.1 * (i + 1)))
     path = folder / "tiny.brdflib"
-    build_library([folder / "tables"], path)
+    tables = build_library([folder / "tables"], path).library.tables
     weights = {"clay": 0.25, "chalk": 0.75}
     recipe = {"library": str(path), "weights": weights}
     route = {
@@ -54,7 +54,7 @@ def subjects(folder: Path) -> dict[str, Subject]:
         "zip": Subject(_zip(folder), _find),
         "unpack": Subject(_zip(folder), _unpack),
         "library": Subject((path / "library.json").read_bytes(), _library_with("library.json", path)),
-        "tables": Subject((path / "tables.npy").read_bytes(), _library_with("tables.npy", path)),
+        "tables": Subject(tables.read_bytes(), _library_with(tables.name, path)),
         "recipe": Subject(json.dumps(recipe).encode(), _materials("recipe.json")),
         "route": Subject(json.dumps(route).encode(), _materials("recipes.json")),
         "words": Subject(b"clay=0.25, chalk=0.75\n0,0.25,1:2:0.1\n1,-2e3", _words(str(path))),

@@ -46,7 +46,7 @@ def test_the_files_of_a_library_are_what_the_format_says(stored):
     description = json.loads((stored.path / "library.json").read_text())
     assert description["format"] == 1
     assert [material["name"] for material in description["materials"]] == list(stored.names)
-    tables = np.load(stored.path / "tables.npy")
+    tables = np.load(stored.tables)
     assert (tables.shape, tables.dtype) == ((3, 4, TINY.size), np.dtype("<f4"))
 
 
@@ -133,17 +133,31 @@ def test_building_again_replaces_the_library(folder, stored):
     assert sorted(p.name for p in stored.path.parent.iterdir()) == ["measured", "tiny.brdflib"]
 
 
+def name_tables(library, name):
+    path = library / "library.json"
+    path.write_text(json.dumps(json.loads(path.read_text()) | {"tables": name}))
+
+
+def tables(library):
+    (path,) = library.glob("tables-*.npy")
+    return path
+
+
 @pytest.mark.parametrize(
     ("damage", "message"),
     [
         (lambda p: (p / "library.json").unlink(), "is no library: there is no library.json in it"),
         (lambda p: (p / "library.json").write_text("{"), "library.json cannot be read"),
         (lambda p: (p / "library.json").write_text('{"format": 1}'), "lacks what a library needs"),
-        (lambda p: (p / "tables.npy").unlink(), "tables.npy cannot be read"),
-        (lambda p: (p / "tables.npy").write_bytes(b"\x93NUMPY"), "tables.npy cannot be read"),
         (
-            lambda p: np.save(p / "tables.npy", np.zeros(3)),
-            r"holds float64 \(3,\): library.json describes",
+            lambda p: name_tables(p, "../tables-0.npy"),
+            r"lacks what a library needs \(tables '\.\./tables-0\.npy'\)",
+        ),
+        (lambda p: tables(p).unlink(), r"tables-.*\.npy cannot be read \(No such file"),
+        (lambda p: tables(p).write_bytes(b"\x93NUMPY"), r"tables-.*\.npy does not hold"),
+        (
+            lambda p: np.save(tables(p), np.zeros(3)),
+            r"tables-.*\.npy does not hold what library.json describes, float32 \(3, 4, 60\) in 3,008 bytes",
         ),
     ],
 )

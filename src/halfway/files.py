@@ -1,30 +1,50 @@
-"""Files that are whole or absent: written beside the final name, then renamed into place."""
+"""Files that are whole or absent: written beside the final name, then renamed into place; remote ones are put whole."""
 
 import errno
+import glob
+import os
 import re
 import secrets
 import shutil
+import tempfile
+import time
 from collections.abc import Generator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from .errors import OutputError
+from .places import Place, RemotePath
+
+try:
+    import fcntl
+except ImportError:  # Windows
+    fcntl = None
 
 _TOKEN_BYTES = 6
+_JUST_MADE_SECONDS = 10.0
 _TEMPORARY = re.compile(rf"\..+\.[0-9a-f]{{{2 * _TOKEN_BYTES}}}(\.\w+)?")
 
 
 @contextmanager
-def replacing(path: Path) -> Generator[Path]:
+def replacing(path: Place) -> Generator[Path]:
     """A temporary path beside ``path`` that takes its place when the block ends well, and is removed when not.
 
-    The temporary name keeps the suffix, so that a writer that chooses its format by the suffix works.
+    The temporary name keeps the suffix, so that a writer that chooses its format by the suffix works. What goes to a
+    remote place is written to this machine's folder of temporary files first.
 
     Raises
     ------
     OutputError
         When the folder cannot be written, or has no room left.
+    RemoteError
+        When a remote place cannot be reached.
     """
+    if isinstance(path, RemotePath):
+        with explaining(path), tempfile.TemporaryDirectory(prefix="halfway-") as folder:
+            temporary = Path(folder, path.name)
+            yield temporary
+            path.put(temporary)
+        return
     temporary = path.with_name(f".{path.stem}.{secrets.token_hex(_TOKEN_BYTES)}{path.suffix}")
     with explaining(path):
         try:
@@ -65,7 +85,7 @@ def replacing_folder(path: Path) -> Generator[Path]:
 
 
 @contextmanager
-def explaining(path: Path) -> Generator[None]:
+def explaining(path: Place) -> Generator[None]:
     """Turn what goes wrong while ``path`` is written into one line that says what to do.
 
     Raises
@@ -79,21 +99,70 @@ def explaining(path: Path) -> Generator[None]:
         raise OutputError(_explain(path, error)) from error
 
 
-def sweep(folder: Path) -> None:
+@contextmanager
+def scratch_folder(path: Place) -> Generator[Path]:
+    """A folder to make ``path`` in, beside it, or among this machine's temporary files where ``path`` is remote.
+
+    It is removed at the end, if it is still there; so are those that killed writers of ``path`` left.
+
+    Raises
+    ------
+    OutputError
+        When the folder cannot be written, or has no room left.
+    """
+    parent = Path(tempfile.gettempdir()) if isinstance(path, RemotePath) else path.parent
+    folder = parent / f".{path.name}.{secrets.token_hex(_TOKEN_BYTES)}.new"
+    with explaining(path):
+        parent.mkdir(parents=True, exist_ok=True)
+        for left in parent.glob(f".{glob.escape(path.name)}.*.new"):
+            _remove_dead(left)
+        folder.mkdir()
+        try:
+            with _lock(folder):
+                yield folder
+        finally:
+            shutil.rmtree(folder, ignore_errors=True)
+
+
+def install(folder: Path, path: Place, *, last: str) -> None:
+    """Move the files of a scratch folder to ``path``, ``last`` at the end: the mark that all are there.
+
+    Where nothing is at ``path`` the whole folder is renamed. Files of other names that are there stay.
+    """
+    with explaining(path):
+        if isinstance(path, Path):
+            try:
+                folder.rename(path)
+                return
+            except OSError:
+                if not path.is_dir():
+                    raise
+        for file in sorted(folder.iterdir(), key=lambda file: file.name == last):
+            if isinstance(path, Path):
+                file.replace(path / file.name)
+            else:
+                (path / file.name).put(file)
+
+
+def sweep(folder: Place) -> None:
     """Remove the temporary files that killed writers of `replacing` left in ``folder``; nobody may be writing there."""
+    if isinstance(folder, RemotePath):
+        return
     for path in list(folder.rglob(".*")):
         if _TEMPORARY.fullmatch(path.name) and path.is_file():
             path.unlink(missing_ok=True)
 
 
-def require_space(folder: Path, n_bytes: int, what: str) -> None:
-    """Refuse to start what the disk cannot hold.
+def require_space(folder: Place, n_bytes: int, what: str) -> None:
+    """Refuse to start what the disk cannot hold; nobody knows what remote storage does.
 
     Raises
     ------
     OutputError
         When the disk of ``folder`` has fewer than ``n_bytes`` free.
     """
+    if isinstance(folder, RemotePath):
+        return
     existing = next(parent for parent in (folder, *folder.absolute().parents) if parent.exists())
     free = shutil.disk_usage(existing).free
     if free < n_bytes:
@@ -103,7 +172,30 @@ def require_space(folder: Path, n_bytes: int, what: str) -> None:
         )
 
 
-def _explain(path: Path, error: OSError) -> str:
+def _remove_dead(folder: Path) -> None:
+    """Remove a scratch folder whose maker died: one that nobody holds the lock of, nor has just made."""
+    with suppress(OSError), _lock(folder) as held:
+        if held and time.time() - folder.stat().st_mtime > _JUST_MADE_SECONDS:
+            shutil.rmtree(folder)
+
+
+@contextmanager
+def _lock(folder: Path) -> Generator[bool]:
+    """Whether the folder's lock could be had; it ends with the process, however that ends. Never where there are none."""
+    handle = os.open(folder, os.O_RDONLY) if fcntl else None
+    try:
+        held = False
+        if fcntl and handle is not None:
+            with suppress(OSError):
+                fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+                held = True
+        yield held
+    finally:
+        if handle is not None:
+            os.close(handle)
+
+
+def _explain(path: Place, error: OSError) -> str:
     match error.errno:
         case errno.ENOSPC:
             return f"{path} cannot be written: the disk is full. Free some space; what was finished is kept."

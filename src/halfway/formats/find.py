@@ -3,6 +3,7 @@
 import os
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
+from functools import partial
 from hashlib import sha256
 from pathlib import Path
 from typing import NamedTuple
@@ -151,9 +152,17 @@ def _built_in(name: str) -> Iterator[Found]:
             f"{_BUILTIN}{name}",
             None,
             credit,
-            lambda model=model: model,
-            lambda model=model: sha256(model.fingerprint()).hexdigest(),
+            partial(_itself, model),
+            partial(_fingerprint, model),
         )
+
+
+def _itself(model: Brdf) -> Brdf:
+    return model
+
+
+def _fingerprint(model: Brdf) -> str:
+    return sha256(model.fingerprint()).hexdigest()
 
 
 def _files(folder: Path) -> list[Path]:
@@ -217,5 +226,5 @@ def _found(
     source: Source, grid: Grid | None, read: Callable[[Source], Brdf], *, name: str = ""
 ) -> Found:
     return Found(
-        name or source.name, source.location, grid, Credit(), lambda: read(source), source.sha256
+        name or source.name, source.location, grid, Credit(), partial(read, source), source.sha256
     )

@@ -9,9 +9,10 @@ from abc import ABC, abstractmethod
 from collections.abc import Generator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import lru_cache
 from io import BufferedIOBase, BufferedReader
 from pathlib import Path, PurePath, PurePosixPath
-from typing import cast
+from typing import Any, cast
 
 from ..errors import FormatError
 
@@ -120,6 +121,10 @@ class FileSource(Source):
     def n_bytes(self) -> int:
         return self.path.stat().st_size
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        """A source travels by a path that means the same in every folder."""
+        return FileSource, (self.path.absolute(),)
+
     def _open(self) -> BufferedReader:
         return self.path.open("rb")
 
@@ -146,6 +151,10 @@ class MemberSource(Source):
     def n_bytes(self) -> int:
         return self.member.file_size
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        """A member travels as its zip's path and its place in it."""
+        return _member_at, (Path(str(self.archive.filename)).absolute(), self.member.header_offset)
+
     def _open(self) -> BufferedIOBase:
         return cast("BufferedIOBase", self.archive.open(self.member))
 
@@ -168,6 +177,15 @@ def members(archive: Path) -> list[MemberSource]:
     infos = [info for info in opened.infolist() if not info.filename.endswith("/")]
     infos.sort(key=lambda info: by_name(PurePosixPath(info.filename)))
     return [MemberSource(opened, info) for info in infos]
+
+
+def _member_at(archive: Path, offset: int) -> MemberSource:
+    return _members_by_offset(archive)[offset]
+
+
+@lru_cache(maxsize=4)
+def _members_by_offset(archive: Path) -> dict[int, MemberSource]:
+    return {source.member.header_offset: source for source in members(archive)}
 
 
 def by_name(path: PurePath) -> tuple[tuple[str, ...], str]:

@@ -3,11 +3,12 @@
 from ..brdf.sphere import JUDGING_SCENE, PACING_SCENE, BasisScene, SphereOperator
 from .basis import BasisImages
 from .basis_samples import BasisSamples
+from .building import build_library
 from .library import Library, Origin
 from .opening import DEFAULT_LIBRARY, library_called, open_library
 from .pca import Pca
 from .procedural import ProceduralLibrary
-from .stored import StoredLibrary, build_library
+from .stored import StoredLibrary
 
 __all__ = [
     "DEFAULT_LIBRARY",

@@ -2,38 +2,39 @@
 
     NAME.brdflib/
         library.json   format version, grid, origin, and per material its name, source, licence and checksum
-        tables.npy     float32, channel-major (3, N, p): a channel of a block is N contiguous runs
+        tables-0123456789ab.npy
+                       float32, channel-major (3, N, p): a channel of a block is N contiguous runs
 
-A library is written beside its final name and renamed into place, so a crash leaves the old one or none. Blocks are read
-into memory of their own: pages of a map would count as memory until the whole file does (1.1 GB where this takes .1).
+library.json names the file of tables, whose own name is the beginning of the library's checksum. So a library is replaced by
+putting its new tables beside the old ones and then, at once, the new library.json: whoever looks, and whatever crashes,
+there is one whole library. The folder may be remote (``s3://bucket/NAME.brdflib``), and is read in ranges.
+
+Blocks are read into memory of their own: pages of a map would count as memory until the whole file does (1.1 GB where this
+takes .1).
 """
 
 import hashlib
+import io
 import json
-import os
-import secrets
-import shutil
-from collections.abc import Generator, Sequence
-from contextlib import contextmanager
-from dataclasses import asdict, dataclass
-from functools import partial
-from pathlib import Path
-from typing import Any, BinaryIO, NamedTuple
+import math
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any
 
 import numpy as np
 
 from .._types import Rows, Table
-from ..brdf import Brdf, TabularBrdf
-from ..errors import LibraryError, OutputError
-from ..files import require_space
-from ..formats import Found, Skipped, find_brdfs
-from ..halfdiff import MERL, Axis, Grid
-from ..tasks import Track, run, silent
+from ..errors import LibraryError
+from ..halfdiff import Axis, Grid
+from ..places import Place, RemotePath, absolute, read_into
 from .blocks import columns_per_block, ranges
 from .library import Library, Origin, material_checksum
 
 FORMAT = 1
 SUFFIX = ".brdflib"
+DESCRIPTION = "library.json"
 
 
 @dataclass(frozen=True)
@@ -58,26 +59,33 @@ class StoredLibrary(Library):
         When the folder holds no library, one of a newer format, or tables that do not fit its description.
     """
 
-    def __init__(self, path: Path) -> None:
+    def __init__(self, path: Place) -> None:
         self.path = path
+        """Its folder."""
         description = _read_description(path)
         try:
             self.grid = Grid(tuple(Axis(**axis) for axis in description["grid"]))
             self.entries = tuple(Entry(**entry) for entry in description["materials"])
             self.origin = Origin(**description["origin"])
-        except (KeyError, TypeError) as error:
+            self.tables = path / _tables_name(description["tables"])
+            """Its file of samples."""
+        except (KeyError, TypeError, ValueError) as error:
             raise LibraryError(
-                f"{path / 'library.json'} lacks what a library needs ({error}): build the library again."
+                f"{path / DESCRIPTION} lacks what a library needs ({error}): build the library again."
             ) from None
-        self.name = path.name.removesuffix(SUFFIX)
+        # A URL can be opened from anywhere; a path means something on one machine.
+        self.name = str(path) if isinstance(path, RemotePath) else path.name.removesuffix(SUFFIX)
         self.names = tuple(entry.name for entry in self.entries)
-        parts = [(entry.name, entry.sha256) for entry in self.entries]
-        self.checksum = hashlib.sha256(repr((parts, self.grid)).encode()).hexdigest()
+        self.checksum = library_checksum(self.entries, self.grid)
         self.material_checksums = tuple(
             material_checksum(entry.name, self.grid, entry.sha256.encode())
             for entry in self.entries
         )
-        self._check_tables()
+        self._start = self._check_tables()
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """A library travels as its path."""
+        return _opened, (absolute(self.path), self.checksum)
 
     def row(self, i: int) -> Table:
         return self._read(range(i, i + 1), slice(0, self.grid.size))[:, 0]
@@ -90,85 +98,87 @@ class StoredLibrary(Library):
 
     def _read(self, materials: range, columns: slice) -> Rows:
         rows = np.empty((3, len(materials), columns.stop - columns.start), np.float32)
-        with (self.path / "tables.npy").open("rb", buffering=0) as file:
-            start = os.fstat(file.fileno()).st_size - 12 * len(self) * self.grid.size
-            for channel, planes in enumerate(rows):
-                for i, samples in zip(materials, planes, strict=True):
-                    cell = (channel * len(self) + i) * self.grid.size + columns.start
-                    os.preadv(file.fileno(), [samples.data], start + 4 * cell)
+        cells = [
+            (channel * len(self) + i) * self.grid.size + columns.start
+            for channel in range(3)
+            for i in materials
+        ]
+        buffers = [samples.data.cast("B") for planes in rows for samples in planes]
+        try:
+            read_into(self.tables, [self._start + 4 * cell for cell in cells], buffers)
+        except FileNotFoundError:
+            raise LibraryError(
+                f"{self.tables} is gone: it was there when the library was opened. It was built again or moved; "
+                "run the same command again."
+            ) from None
         return rows
 
-    def _check_tables(self) -> None:
-        expected = (3, len(self), self.grid.size)
+    def _check_tables(self) -> int:
+        """Where the samples begin."""
+        shape = (3, len(self), self.grid.size)
+        header = npy_header(shape)
+        found = bytearray(len(header))
         try:
-            tables = np.load(self.path / "tables.npy", mmap_mode="r", allow_pickle=False)
-        except (OSError, ValueError) as error:
+            n_bytes = self.tables.stat().st_size
+            if n_bytes >= len(header):
+                read_into(self.tables, [0], [memoryview(found)])
+        except OSError as error:
             raise LibraryError(
-                f"{self.path / 'tables.npy'} cannot be read ({error}): build the library again."
+                f"{self.tables} cannot be read ({error.strerror or error}): build the library again."
             ) from None
-        if tables.shape != expected or tables.dtype != np.float32:
+        expected = len(header) + 4 * math.prod(shape)
+        if bytes(found) != header or n_bytes != expected:
             raise LibraryError(
-                f"{self.path / 'tables.npy'} holds {tables.dtype} {tables.shape}: library.json describes "
-                f"float32 {expected}. Build the library again."
+                f"{self.tables} does not hold what {DESCRIPTION} describes, float32 {shape} in {expected:,} bytes "
+                f"(it has {n_bytes:,}): build the library again."
             )
+        return len(header)
 
 
-class Built(NamedTuple):
-    """What `build_library` did."""
-
-    library: StoredLibrary
-    skipped: list[Skipped]
-    """What the sources hold that is no BRDF, and why."""
+def library_checksum(entries: Sequence[Entry], grid: Grid) -> str:
+    """The checksum of a library of these materials."""
+    parts = [(entry.name, entry.sha256) for entry in entries]
+    return hashlib.sha256(repr((parts, grid)).encode()).hexdigest()
 
 
-def build_library(
-    sources: Sequence[str | Path],
-    path: Path,
-    *,
-    origin: Origin | None = None,
-    track: Track = silent,
-) -> Built:
-    """Tabulate every BRDF found in ``sources`` (files, folders, zips, ``builtin:NAME``) into a library at ``path``.
+def tables_name(checksum: str) -> str:
+    """What the file of the tables of a library with this checksum is called."""
+    return f"tables-{checksum[:12]}.npy"
 
-    Materials that are not tables are sampled on the grid of those that are, or on the MERL grid.
 
-    Raises
-    ------
-    LibraryError
-        When nothing is found, or two tables have different grids.
-    OutputError
-        When ``path`` cannot be written or the disk has no room.
-    """
-    found, skipped = find_brdfs(sources)
-    if not found:
-        reasons = "; ".join(f"{item.path}: {item.reason}" for item in skipped[:3])
+def npy_header(shape: tuple[int, ...]) -> bytes:
+    header = io.BytesIO()
+    np.lib.format.write_array_header_1_0(
+        header, {"descr": "<f4", "fortran_order": False, "shape": shape}
+    )
+    return header.getvalue()
+
+
+@lru_cache(maxsize=8)
+def _opened(path: Place, checksum: str) -> StoredLibrary:
+    """The library that another process means; descriptions of a few stay open, tables are not held."""
+    library = StoredLibrary(path)
+    if library.checksum != checksum:
         raise LibraryError(
-            f"there is no BRDF in {', '.join(map(str, sources))}"
-            + (f" ({reasons})" if reasons else "")
-            + ": expected MERL .binary files, NBRDF .h5 files, zips of them, or builtin:NAME."
+            f"{path} has checksum {library.checksum[:12]} here and {checksum[:12]} where the work began: it was built "
+            "again, or is another folder on this machine. Run the same command again."
         )
-    _refuse_foreign_folder(path)
-    grid = _common_grid(found)
-    require_space(path.parent, 12 * len(found) * grid.size, f"a library of {len(found)} materials")
-    with _replacing_folder(path) as folder:
-        entries = _write_tables(folder / "tables.npy", found, grid, track)
-        description = {
-            "format": FORMAT,
-            "grid": [asdict(axis) for axis in grid.axes],
-            "origin": asdict(origin or _common_origin(found)),
-            "materials": [asdict(entry) for entry in entries],
-        }
-        (folder / "library.json").write_text(json.dumps(description, indent=1))
-    return Built(StoredLibrary(path), skipped)
+    return library
 
 
-def _read_description(path: Path) -> dict[str, Any]:
+def _tables_name(name: str) -> str:
+    if not re.fullmatch(r"tables-[0-9a-f]+\.npy", name):
+        raise ValueError(f"tables {name!r}")
+    return name
+
+
+def _read_description(path: Place) -> dict[str, Any]:
     try:
-        description = json.loads((path / "library.json").read_text())
+        description = json.loads((path / DESCRIPTION).read_text())
         version = description["format"]
     except FileNotFoundError:
         raise LibraryError(
-            f"{path} is no library: there is no library.json in it. "
+            f"{path} is no library: there is no {DESCRIPTION} in it. "
             f"`halfway library build {path} -o NAME{SUFFIX}` makes one of a folder of BRDF files."
         ) from None
     except (OSError, ValueError, KeyError, TypeError) as error:
@@ -181,69 +191,3 @@ def _read_description(path: Path) -> dict[str, Any]:
             "upgrade halfway, or build the library again."
         )
     return description
-
-
-def _refuse_foreign_folder(path: Path) -> None:
-    if path.exists() and not (path / "library.json").exists():
-        raise OutputError(
-            f"{path} exists and is no library: it is not replaced. Choose another name with -o."
-        )
-
-
-def _common_grid(found: Sequence[Found]) -> Grid:
-    grids = {item.grid: item.name for item in reversed(found) if item.grid is not None}
-    if len(grids) > 1:
-        listed = ", ".join(f"{name} has {grid}" for grid, name in grids.items())
-        raise LibraryError(
-            f"the tables have {len(grids)} different grids ({listed}): a library has one. "
-            "Build one library per grid."
-        )
-    return next(iter(grids), MERL)
-
-
-def _common_origin(found: Sequence[Found]) -> Origin:
-    origins = dict.fromkeys(item.origin for item in found)
-    description, source, licence = (
-        "; ".join(dict.fromkeys(filter(None, column))) for column in zip(*origins, strict=True)
-    )
-    return Origin(description, source, licence)
-
-
-def _write_tables(path: Path, found: Sequence[Found], grid: Grid, track: Track) -> list[Entry]:
-    shape = (3, len(found), grid.size)
-    with path.open("wb") as file:
-        header = {"descr": "<f4", "fortran_order": False, "shape": shape}
-        np.lib.format.write_array_header_1_0(file, header)
-        start = file.tell()
-        write = partial(_write_row, file, start, found, grid)
-        return list(run(write, range(len(found)), label="Tables", track=track))
-
-
-def _write_row(file: BinaryIO, start: int, found: Sequence[Found], grid: Grid, i: int) -> Entry:
-    item = found[i]
-    row = _tabulated(item.load(), grid).reshape(3, -1)
-    for channel, samples in enumerate(row):
-        os.pwrite(file.fileno(), samples.data, start + 4 * grid.size * (channel * len(found) + i))
-    return Entry(item.name, item.source, item.sha256, hashlib.sha256(row.data).hexdigest())
-
-
-def _tabulated(brdf: Brdf, grid: Grid) -> Table:
-    table = brdf.values if isinstance(brdf, TabularBrdf) else brdf.sample_rows(grid, slice(None))
-    return np.ascontiguousarray(table, "<f4")
-
-
-@contextmanager
-def _replacing_folder(path: Path) -> Generator[Path]:
-    token = secrets.token_hex(6)
-    temporary, old = (path.with_name(f".{path.name}.{token}.{role}") for role in ("new", "old"))
-    try:
-        temporary.mkdir(parents=True)
-        yield temporary
-        if path.exists():
-            path.rename(old)
-        temporary.rename(path)
-    except OSError as error:
-        raise OutputError(f"{path} cannot be written: {error.strerror or error}.") from error
-    finally:
-        for folder in (temporary, old):
-            shutil.rmtree(folder, ignore_errors=True)

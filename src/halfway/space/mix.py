@@ -7,7 +7,9 @@ negative: a mix of sound materials is sound. The truncated PCA is something else
 """
 
 from collections import OrderedDict
+from functools import partial
 from threading import Lock
+from typing import Any
 
 import numpy as np
 
@@ -29,6 +31,10 @@ class Mixer:
         self._rows: OrderedDict[str, Table] = OrderedDict()
         self._n_rows = n_rows
         self._lock = Lock()
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """A mixer travels without its rows."""
+        return partial(Mixer, self._library, n_rows=self._n_rows), ()
 
     def mix(self, recipe: Recipe) -> TabularBrdf:
         """The table of a recipe.

@@ -1,0 +1,154 @@
+"""Make a library on disk of the BRDFs in files, folders, zips and the package.
+
+Materials are tabulated by tasks, and written here as they come. The library takes its place when it is whole, in one step;
+see `halfway.library.stored`.
+"""
+
+import hashlib
+import json
+from collections.abc import Sequence
+from contextlib import suppress
+from dataclasses import asdict
+from functools import partial
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+from .._types import Table
+from ..brdf import TabularBrdf
+from ..errors import LibraryError, OutputError
+from ..files import install, require_space, scratch_folder
+from ..formats import Found, Skipped, find_brdfs
+from ..halfdiff import MERL, Grid
+from ..places import Place
+from ..tasks import THREADS, Engine, Track, run, silent
+from .library import Origin
+from .stored import (
+    DESCRIPTION,
+    FORMAT,
+    Entry,
+    StoredLibrary,
+    library_checksum,
+    npy_header,
+    tables_name,
+)
+
+
+class Built(NamedTuple):
+    """What `build_library` did."""
+
+    library: StoredLibrary
+    skipped: list[Skipped]
+    """What the sources hold that is no BRDF, and why."""
+
+
+def build_library(
+    sources: Sequence[str | Path],
+    path: Place,
+    *,
+    origin: Origin | None = None,
+    track: Track = silent,
+    engine: Engine = THREADS,
+) -> Built:
+    """Tabulate every BRDF found in ``sources`` (files, folders, zips, ``builtin:NAME``) into a library at ``path``.
+
+    Materials that are not tables are sampled on the grid of those that are, or on the MERL grid.
+
+    Raises
+    ------
+    LibraryError
+        When nothing is found, or two tables have different grids.
+    OutputError
+        When ``path`` cannot be written or the disk has no room.
+    """
+    found, skipped = find_brdfs(sources)
+    if not found:
+        reasons = "; ".join(f"{item.path}: {item.reason}" for item in skipped[:3])
+        raise LibraryError(
+            f"there is no BRDF in {', '.join(map(str, sources))}"
+            + (f" ({reasons})" if reasons else "")
+            + ": expected MERL .binary files, NBRDF .h5 files, zips of them, or builtin:NAME."
+        )
+    _refuse_foreign_folder(path)
+    grid = _common_grid(found)
+    require_space(path.parent, 12 * len(found) * grid.size, f"a library of {len(found)} materials")
+    with scratch_folder(path) as folder:
+        entries = _write_tables(folder / "tables.npy", found, grid, track, engine)
+        tables = tables_name(library_checksum(entries, grid))
+        description = {
+            "format": FORMAT,
+            "grid": [asdict(axis) for axis in grid.axes],
+            "origin": asdict(origin or _common_origin(found)),
+            "tables": tables,
+            "materials": [asdict(entry) for entry in entries],
+        }
+        (folder / "tables.npy").rename(folder / tables)
+        (folder / DESCRIPTION).write_text(json.dumps(description, indent=1))
+        old = _tables_of(path)
+        install(folder, path, last=DESCRIPTION)
+    if old is not None and old.name != tables:
+        old.unlink(missing_ok=True)
+    return Built(StoredLibrary(path), skipped)
+
+
+def _tables_of(path: Place) -> Place | None:
+    """The tables of the library that is at ``path``, if there is one."""
+    with suppress(LibraryError):
+        return StoredLibrary(path).tables
+    return None
+
+
+def _refuse_foreign_folder(path: Place) -> None:
+    if path.exists() and not (path / DESCRIPTION).exists():
+        raise OutputError(
+            f"{path} exists and is no library: it is not replaced. Choose another name with -o."
+        )
+
+
+def _common_grid(found: Sequence[Found]) -> Grid:
+    grids = {item.grid: item.name for item in reversed(found) if item.grid is not None}
+    if len(grids) > 1:
+        listed = ", ".join(f"{name} has {grid}" for grid, name in grids.items())
+        raise LibraryError(
+            f"the tables have {len(grids)} different grids ({listed}): a library has one. "
+            "Build one library per grid."
+        )
+    return next(iter(grids), MERL)
+
+
+def _common_origin(found: Sequence[Found]) -> Origin:
+    origins = dict.fromkeys(item.origin for item in found)
+    description, source, licence = (
+        "; ".join(dict.fromkeys(filter(None, column))) for column in zip(*origins, strict=True)
+    )
+    return Origin(description, source, licence)
+
+
+def _write_tables(
+    path: Path, found: Sequence[Found], grid: Grid, track: Track, engine: Engine
+) -> list[Entry]:
+    rows = run(partial(_tabulate, grid), found, label="Tables", track=track, engine=engine)
+    with path.open("wb") as file:
+        start = file.write(npy_header((3, len(found), grid.size)))
+        file.truncate(start + 12 * len(found) * grid.size)
+        entries: list[Entry] = []
+        for i, row in enumerate(rows):
+            for channel, samples in enumerate(row.samples):
+                file.seek(start + 4 * grid.size * (channel * len(found) + i))
+                file.write(samples.data)
+            entries.append(row.entry)
+    return entries
+
+
+class _Row(NamedTuple):
+    entry: Entry
+    samples: Table
+
+
+def _tabulate(grid: Grid, found: Found) -> _Row:
+    brdf = found.load()
+    table = brdf.values if isinstance(brdf, TabularBrdf) else brdf.sample_rows(grid, slice(None))
+    samples = np.ascontiguousarray(table, "<f4").reshape(3, -1)
+    checksum = hashlib.sha256(samples.data).hexdigest()
+    return _Row(Entry(found.name, found.source, found.sha256, checksum), samples)
