@@ -87,6 +87,23 @@ def test_a_cell_unmeasured_in_one_material_counts_for_none():
     assert_allclose(pca.eigenvalues[0, :4], other.explained_variance_[:4] * 4, rtol=1e-9)
 
 
+@pytest.mark.parametrize("fit", [Gram.of, lambda library: sketch(library, 3)])
+def test_a_block_without_a_measured_cell_adds_nothing(fit, monkeypatch, capfd):
+    """As beyond the horizon at the end of the grid; BLAS is not to be asked for a product of nothing."""
+    monkeypatch.setattr("halfway.library.blocks.WORK_BYTES", 1)
+    monkeypatch.setattr("halfway.library.blocks.BLOCK_BYTES", 1)
+    wanted = fit(grown(4))
+    tables = {}
+    for name, table in random_tables(4, GRID).items():
+        values = table.values.copy()
+        values[:, -2:] = np.nan
+        tables[name] = TabularBrdf(values, GRID)
+    found = fit(ProceduralLibrary("cut", tables, grid=GRID))
+    assert (found.n_cells < wanted.n_cells).all()
+    assert (found.squared_norms < wanted.squared_norms).all()
+    assert capfd.readouterr() == ("", "")
+
+
 def test_materials_without_a_common_cell_are_refused():
     tables = random_tables(2, GRID)
     for table, rows in zip(tables, (slice(0, 3), slice(3, 6)), strict=True):

@@ -11,7 +11,8 @@ from scipy.spatial import Delaunay
 from strategies import convex_weights, points
 
 from halfway.errors import DegenerateSpaceWarning, OutsideHullError
-from halfway.space import Triangulation
+from halfway.library import Pca
+from halfway.space import DelaunayWalk, PaperSpace, Triangulation
 from halfway.space.spaces import interpolate
 
 SQUARE = np.array([[0.0, 0], [2, 0], [2, 2], [0, 2], [1, 1]])
@@ -167,3 +168,31 @@ def test_the_scale_of_the_scores_does_not_matter():
     for path in paths[1:]:
         assert_allclose(path.knots, paths[0].knots, atol=1e-9)
         assert_allclose(path.weights, paths[0].weights, atol=1e-9)
+
+
+def test_a_paper_space_of_very_many_simplices_is_walked(small_library, monkeypatch):
+    """And its legs are those of the triangulation."""
+    pca = Pca.fit(small_library)
+    made = PaperSpace.fit(small_library, pca)
+    monkeypatch.setattr("halfway.space.spaces.MOST_SIMPLICES", 10)
+    walked = PaperSpace.fit(small_library, pca)
+    assert isinstance(walked.triangulations[0], DelaunayWalk)
+    t = np.linspace(0, 1, 23)
+    for start, stop in ((0, 1), (3, 7), (8, 2)):
+        a, b = (
+            interpolate(t, leg.knots, leg.weights)
+            for leg in (space.leg(start, stop) for space in (made, walked))
+        )
+        assert_allclose(a, b, atol=1e-8)
+
+
+def test_ten_thousand_points_in_six_dimensions_are_walked():
+    """Thirteen million simplices, of which a line meets some dozens."""
+    points = np.random.default_rng(0).normal(size=(10_000, 6))
+    walk = DelaunayWalk.of(points)
+    path = walk.path(3, 4)
+    assert_allclose(
+        path.weights @ points, path.knots[:, None] * (points[4] - points[3]) + points[3], atol=1e-7
+    )
+    assert (path.weights >= 0).all()
+    assert ((path.weights > 0).sum(axis=1) <= 7).all()

@@ -22,17 +22,24 @@ def report(
     ] = 0,
     seed: Annotated[int, typer.Option(help="Of the sample of pairs.")] = 0,
     as_json: Annotated[bool, typer.Option("--json", help="Print report.json.")] = False,
+    dry_run: Annotated[
+        bool, typer.Option("--dry-run", help="Say what it takes: blocks, memory, time; and stop.")
+    ] = False,
 ) -> None:
     """Principal components of a library: Table I, eigenvalues, triangulation; and how well spaces move in it.
 
     \b
     halfway report merl.brdflib -o report
     halfway report merl_nbrdf.zip --pairs 200
+    halfway report builtin:synthetic-2000 --dry-run
     """
     from halfway.export import compare_spaces, write_report
-    from halfway.library import Pca, open_library
+    from halfway.library import Pca, PcaPlan, open_library
 
     library = open_library(lib)
+    if dry_run:
+        print("\n".join(PcaPlan.of(library).timed(library).lines()))
+        return
     pca = Pca.fit(library, cache=cache_folder(), track=track)
     n_pairs = None if pairs < 0 else pairs
     compared = (

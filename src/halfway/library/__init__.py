@@ -7,6 +7,7 @@ from .building import build_library
 from .library import Library, Origin
 from .opening import DEFAULT_LIBRARY, library_called, open_library
 from .pca import Pca
+from .plan import PcaPlan
 from .procedural import ProceduralLibrary
 from .stored import StoredLibrary
 
@@ -20,6 +21,7 @@ __all__ = [
     "Library",
     "Origin",
     "Pca",
+    "PcaPlan",
     "ProceduralLibrary",
     "SphereOperator",
     "StoredLibrary",

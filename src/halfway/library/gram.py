@@ -58,7 +58,7 @@ class Gram:
             When no cell is measured in every material.
         """
         n = len(library)
-        total = _sum(library, _Part(np.arange(n), 0), track, engine)
+        total = _sum(library, Part(np.arange(n), 0), track, engine)
         return cls(library.material_checksums, 0, total.products, total.norms, total.n_cells)
 
     def extended(
@@ -81,7 +81,7 @@ class Gram:
             )
         known = np.array([place[checksum] for checksum in self.materials])
         new = np.setdiff1d(np.arange(len(library)), known)
-        total = _sum(library, _Part(new, int(known[self.origin])), track, engine)
+        total = _sum(library, Part(new, int(known[self.origin])), track, engine)
         if (total.n_cells != self.n_cells).any():
             return Gram.of(library, track=track, engine=engine)
         norms = np.empty((3, len(library)))
@@ -122,7 +122,7 @@ def unpack(triangle: Float64[np.ndarray, " n_pairs"], n: int) -> Float64[np.ndar
     return symmetric
 
 
-class _Part(NamedTuple):
+class Part(NamedTuple):
     """Which products a pass computes: of the materials ``rows`` with all, or among themselves where that is all."""
 
     rows: Int[np.ndarray, " n_rows"]
@@ -135,12 +135,10 @@ class _Sum(NamedTuple):
     n_cells: Int[np.ndarray, " 3"]
 
 
-def _sum(library: Library, part: _Part, track: Track, engine: Engine) -> _Sum:
-    n, n_rows = len(library), len(part.rows)
-    n_products = n * (n + 1) // 2 if n_rows == n else n * n_rows
-    total = _Sum(np.zeros((3, n_products)), np.zeros((3, n_rows)), np.zeros(3, np.int64))
+def _sum(library: Library, part: Part, track: Track, engine: Engine) -> _Sum:
+    n, total = len(library), _zeros(len(library), part)
     blocks = run(
-        partial(_block, library, part),
+        partial(gram_block, library, part),
         library.blocks(),
         label="Gram matrices",
         track=track,
@@ -157,13 +155,23 @@ def _sum(library: Library, part: _Part, track: Track, engine: Engine) -> _Sum:
     return total
 
 
-def _block(library: Library, part: _Part, columns: slice) -> _Sum:
-    channels = [_channel(samples, part) for samples in library.columns(columns)]
-    products, norms, n_cells = zip(*channels, strict=True)
-    return _Sum(np.stack(products), np.stack(norms), np.array(n_cells))
+def _zeros(n: int, part: Part) -> _Sum:
+    n_rows = len(part.rows)
+    n_products = n * (n + 1) // 2 if n_rows == n else n * n_rows
+    return _Sum(np.zeros((3, n_products)), np.zeros((3, n_rows)), np.zeros(3, np.int64))
 
 
-def _channel(samples: np.ndarray, part: _Part) -> tuple[np.ndarray, np.ndarray, int]:
+def gram_block(library: Library, part: Part, columns: slice) -> _Sum:
+    """The task of a pass: the products on one block."""
+    total = _zeros(len(library), part)
+    for channel, samples in enumerate(library.columns(columns)):
+        total.products[channel], total.norms[channel], total.n_cells[channel] = _channel(
+            samples, part
+        )
+    return total
+
+
+def _channel(samples: np.ndarray, part: Part) -> tuple[np.ndarray, np.ndarray, int]:
     """The products of one channel of a block, a piece of it at a time that stays in a core's cache."""
     n, n_columns = samples.shape
     whole = len(part.rows) == n
@@ -171,8 +179,11 @@ def _channel(samples: np.ndarray, part: _Part) -> tuple[np.ndarray, np.ndarray, 
     norms, n_cells = np.zeros(len(part.rows)), 0
     for piece in ranges(n_columns, columns_per_piece(n)):
         u = measured_everywhere(samples[:, piece])
+        if not u.size:
+            continue
         n_cells += u.shape[1]
-        norms += np.einsum("ij,ij->i", u[part.rows], u[part.rows])
+        rows = u if whole else u[part.rows]
+        norms += np.einsum("ij,ij->i", rows, rows)
         u -= u[part.origin].copy()
         products = _add_products(products, u, None if whole else part.rows)
     return (pack(products) if whole else products.ravel()), norms, n_cells

@@ -92,10 +92,13 @@ class _Sum(NamedTuple):
 
 
 def _sum(library: Library, tests: np.ndarray, label: str, track: Track, engine: Engine) -> _Sum:
-    n = len(library)
-    total = _Sum(np.zeros_like(tests), np.zeros((3, n)), np.zeros((3, n)), np.zeros(3, np.int64))
+    n, total = len(library), _zeros(tests)
     blocks = run(
-        partial(_block, library, tests), library.blocks(), label=label, track=track, engine=engine
+        partial(sketch_block, library, tests),
+        library.blocks(),
+        label=label,
+        track=track,
+        engine=engine,
     )
     for block in blocks:
         for whole, piece in zip(total, block, strict=True):
@@ -108,12 +111,19 @@ def _sum(library: Library, tests: np.ndarray, label: str, track: Track, engine: 
     return total
 
 
-def _block(library: Library, tests: np.ndarray, columns: slice) -> _Sum:
-    channels = [
-        _channel(samples, w) for samples, w in zip(library.columns(columns), tests, strict=True)
-    ]
-    images, norms, centred, n_cells = zip(*channels, strict=True)
-    return _Sum(np.stack(images), np.stack(norms), np.stack(centred), np.array(n_cells))
+def _zeros(tests: np.ndarray) -> _Sum:
+    norms = np.zeros(tests.shape[:2])
+    return _Sum(np.zeros_like(tests), norms, norms.copy(), np.zeros(3, np.int64))
+
+
+def sketch_block(library: Library, tests: np.ndarray, columns: slice) -> _Sum:
+    """The task of a pass: the images of the test vectors on one block."""
+    total = _zeros(tests)
+    for channel, samples in enumerate(library.columns(columns)):
+        found = _channel(samples, tests[channel])
+        for whole, piece in zip(total, found, strict=True):
+            whole[channel] = piece
+    return total
 
 
 def _channel(
@@ -123,6 +133,8 @@ def _channel(
     images, norms, centred, n_cells = np.zeros_like(tests), np.zeros(n), np.zeros(n), 0
     for piece in ranges(n_columns, columns_per_piece(n)):
         u = measured_everywhere(samples[:, piece])
+        if not u.size:
+            continue
         n_cells += u.shape[1]
         norms += np.einsum("ij,ij->i", u, u)
         u -= u.mean(axis=0)

@@ -31,6 +31,7 @@ from ..space import (
 )
 from ..space.hull import nearest_in_hull
 from ..space.triangulation import Triangulation
+from ..space.walk import DelaunayWalk
 from ..tasks import Track, silent
 from .blocks import Block
 from .embedding import look_at
@@ -221,7 +222,7 @@ def _place_in_each_channel(space: PaperSpace, point: np.ndarray) -> PlaceView:
     return to_place(recipe, reached.ravel(), inside=False)
 
 
-def _nearest(triangulation: Triangulation, x: np.ndarray) -> np.ndarray:
+def _nearest(triangulation: Triangulation | DelaunayWalk, x: np.ndarray) -> np.ndarray:
     """Weights at ``x``, or at the nearest point of the hull, each score in units of its spread."""
     try:
         return triangulation.weights(x)

@@ -35,6 +35,7 @@ from ..library import BasisImages, BasisSamples, Library, Pca
 from .hull import nearest_in_hull
 from .recipe import Recipe
 from .spaces import Leg, Space, interpolate
+from .triangulation import corners
 from .walk import DelaunayWalk
 
 BODY_SCALE = 0.3
@@ -108,7 +109,7 @@ class AnchoredSpace(Space):
 
     def leg(self, start: int, stop: int) -> Leg:
         path = self._walk.path(start, stop)
-        ends = np.eye(len(self.names))[[start, stop]]
+        ends = corners(len(self.names), start, stop)
         straight = interpolate(path.knots, np.array([0.0, 1.0]), ends)
         share = self._share(Leg(path.knots, np.stack([path.weights, straight])))
         weights = share * path.weights + (1 - share) * straight

@@ -117,8 +117,11 @@ class Route:
             raise SpaceError(
                 f"t = {outside[0]:g} is off the route: expected 0 (first stop) to 1 (last stop)."
             )
-        weights = np.moveaxis(self.at(ts), 1, 0)
-        return [Recipe.from_dense(self.library, self.names, w) for w in weights]
+        # Of a large library a route touches a few dozen materials.
+        used = np.flatnonzero(self.weights.any(axis=(0, 1)))
+        names = tuple(self.names[i] for i in used)
+        weights = np.moveaxis(interpolate(ts, self.knots, self.weights[..., used]), 1, 0)
+        return [Recipe.from_dense(self.library, names, w) for w in weights]
 
     def to_json(self, t: Sequence[float]) -> dict[str, Any]:
         """The document ``recipes.json``: the recipes at each t, and where they come from."""

@@ -16,7 +16,13 @@ from jaxtyping import Float64
 from ..errors import SpaceError
 from ..library import Library, Pca
 from .recipe import Recipe
-from .triangulation import Path, Triangulation
+from .triangulation import Path, Triangulation, corners
+from .walk import DelaunayWalk
+
+SIMPLICES_PER_POINT = (1, 2, 6.8, 32, 190, 1300)
+"""Of the Delaunay triangulation of many points that are spread evenly, in 1 to 6 dimensions."""
+MOST_SIMPLICES = 1e6
+"""More are not made: a million takes a gigabyte in six dimensions."""
 
 
 class Leg(NamedTuple):
@@ -48,7 +54,8 @@ class PaperSpace(Space):
 
     library: str
     names: tuple[str, ...]
-    triangulations: tuple[Triangulation, Triangulation, Triangulation]
+    triangulations: tuple[Triangulation | DelaunayWalk, ...]
+    """One per channel; walks where there are too many simplices to make, which give the same weights."""
     name = "paper"
 
     @classmethod
@@ -59,8 +66,9 @@ class PaperSpace(Space):
                 f"a space of {n_components} components cannot be made: expected 1 to 6 "
                 "(a triangulation of 100 points has 530 simplices in 3 dimensions, 20,000 in 6)."
             )
-        r, g, b = (Triangulation.of(scores) for scores in pca.scores(n_components))
-        return cls(library.name, library.names, (r, g, b))
+        n_simplices = len(library) * SIMPLICES_PER_POINT[n_components - 1]
+        kind = Triangulation if n_simplices <= MOST_SIMPLICES else DelaunayWalk
+        return cls(library.name, library.names, tuple(map(kind.of, pca.scores(n_components))))
 
     def leg(self, start: int, stop: int) -> Leg:
         return _together([t.path(start, stop) for t in self.triangulations])
@@ -86,7 +94,7 @@ class LinearSpace(Space):
     name = "linear"
 
     def leg(self, start: int, stop: int) -> Leg:
-        ends = np.eye(len(self.names))[[start, stop]]
+        ends = corners(len(self.names), start, stop)
         return Leg(np.array([0.0, 1.0]), np.stack([ends] * 3))
 
 

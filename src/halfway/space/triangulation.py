@@ -52,9 +52,16 @@ class Path(NamedTuple):
         cls, start: int, stop: int, n_points: int, crossings: Sequence[tuple[float, np.ndarray]]
     ) -> "Path":
         """The path through these places from one point to another, both of which it meets exactly."""
-        first, last = np.eye(n_points)[[start, stop]]
+        first, last = corners(n_points, start, stop)
         knots = np.array([0.0, *(t for t, _ in crossings), 1.0])
         return cls(knots, np.stack([first, *(weights for _, weights in crossings), last]))
+
+
+def corners(n_points: int, start: int, stop: int) -> Float64[np.ndarray, "2 n_points"]:
+    """The weights at two of the points: all on the one, all on the other."""
+    weights = np.zeros((2, n_points))
+    weights[[0, 1], [start, stop]] = 1.0
+    return weights
 
 
 @dataclass(frozen=True, eq=False)

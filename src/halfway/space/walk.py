@@ -60,6 +60,11 @@ class DelaunayWalk:
         """Dimensions in which the points extend."""
         return self._basis.shape[1]
 
+    @property
+    def simplices(self) -> Int[np.ndarray, "0 n_vertices"]:
+        """Those that are kept to be shown: none. A walk makes one where it is met."""
+        return np.zeros((0, self.n_dimensions + 1), np.intp)
+
     def weights(self, x: Float64[np.ndarray, " k"]) -> Float64[np.ndarray, " n_points"]:
         """Barycentric weights of ``x`` over all points.
 
