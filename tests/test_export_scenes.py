@@ -1,18 +1,27 @@
-"""Scene folders: loaded by Mitsuba itself, and held to pbrt's grammar."""
+"""Scene folders: rendered by Mitsuba itself, and held to pbrt's grammar."""
 
 import re
+import subprocess
+import sys
 
 import numpy as np
 import pytest
-from test_rgl import _mitsuba
+from numpy.testing import assert_allclose
+from pbrt_grammar import parse
+from typer.testing import CliRunner
 
-from halfway import Grid, tabulate
+from halfway import MERL, Grid, TabularBrdf, tabulate
+from halfway.cli import app
 from halfway.errors import OutputError
-from halfway.export.scenes import write_scene
+from halfway.export.scenes import RENDERERS, write_scene
 from halfway.formats import read_brdf
+from halfway.formats.tensor_file import read_tensor_file
 from halfway.models import builtin
+from halfway.render import register
+from halfway.render.variant import load_mitsuba
 
 GRID = Grid.merl(20, 20, 40)
+UP = np.array([0.0, 0.0, 1.0])
 
 
 @pytest.fixture(scope="module")
@@ -20,107 +29,180 @@ def table():
     return tabulate(builtin("merl-abc").models["gold-paint"], GRID, name="gold-paint")
 
 
+@pytest.fixture(scope="module")
+def gold(tmp_path_factory, table):
+    """The folder for Mitsuba, with small pictures."""
+    folder = tmp_path_factory.mktemp("gold")
+    written = write_scene(folder, table, "mitsuba", name="gold-paint")
+    for scene in folder.glob("*.xml"):
+        small = scene.read_text().replace('value="512"', 'value="32"')
+        scene.write_text(small.replace('value="64"', 'value="16"'))
+    return written
+
+
 def rendered(mi, file):
-    return np.array(mi.render(mi.load_file(str(file)), spp=4, seed=0))
+    return np.array(mi.render(mi.load_file(str(file)), seed=0))
 
 
-def test_mitsuba_renders_its_folder(tmp_path, table):
-    """The stock plugin with the .bsdf: gold is redder than it is blue, and nothing is black where the sphere is."""
-    written = write_scene(tmp_path / "gold", table, "mitsuba")
-    assert [f.name for f in written.files] == [
+def psnr(a, b):
+    a, b = (np.clip(x, 0, 1) ** (1 / 2.2) for x in (a, b))
+    return -10 * np.log10(np.mean((a - b) ** 2))
+
+
+def test_mitsuba_renders_both_of_its_scenes(gold):
+    """The stock plugin with the .bsdf, and the table itself: gold is redder than it is blue, and lit from the left."""
+    assert [f.name for f in gold.files] == [
         "material.bsdf",
         "material.binary",
         "scene.xml",
         "scene-exact.xml",
         "README.md",
     ]
-    scene = tmp_path / "gold" / "scene.xml"
-    scene.write_text(scene.read_text().replace('value="512"', 'value="24"'))
-    mi = _mitsuba()
+    mi = load_mitsuba()
     with mi.variant_context("scalar_rgb"):
-        picture = rendered(mi, scene)
-    middle = picture[8:16, 8:16].mean(axis=(0, 1))
-    assert middle[0] > middle[1] > middle[2] > 0.01
+        stock = rendered(mi, gold.folder / "scene.xml")
+    register()
+    exact = rendered(mi, gold.folder / "scene-exact.xml")
+    for picture in (stock, exact):
+        middle = picture[11:21, 11:21].mean(axis=(0, 1))
+        assert middle[0] > middle[1] > middle[2] > 0.01
+        assert picture[10:15, 10:15].mean() > 1.1 * picture[10:15, 17:22].mean()
+    # One seed, two samplers: the rest is noise.
+    assert psnr(stock, exact) > 25
 
 
 @pytest.mark.parametrize("renderer", ["pbrt-v2", "pbrt-v4"])
 def test_pbrt_scenes_follow_the_grammar(tmp_path, table, renderer):
-    written = write_scene(tmp_path, table, renderer)
-    for line in (tmp_path / "scene.pbrt").read_text().splitlines():
-        require_directive(line, renderer)
-    (material,) = re.findall(
-        r'Material "measured" "string filename" \["(.*)"\]', (tmp_path / "scene.pbrt").read_text()
-    )
-    assert tmp_path / material in written.files
-    up = np.array([0.0, 0.0, 1.0])
-    assert read_brdf(tmp_path / material).eval(up, up) == pytest.approx(
-        table.eval(up, up), rel=0.02
-    )
+    brdf = builtin("merl-abc").models["gold-paint"] if renderer == "pbrt-v2" else table
+    written = write_scene(tmp_path, brdf, renderer)
+    directives = parse((tmp_path / "scene.pbrt").read_text(), renderer)
+    (material,) = [d for d in directives if d.name == "Material"]
+    path = tmp_path / material.parameters["filename"][0]
+    assert path in written.files
+    assert_allclose(read_brdf(path).eval(UP, UP), table.eval(UP, UP), rtol=0.02)
+    if renderer == "pbrt-v4":
+        assert {"wavelengths", "spectra"} < set(read_tensor_file(path))
 
 
-# A directive: what follows its name, and the parameters it knows, as "type name". From the file format pages.
-DIRECTIVES = {
-    "LookAt": 9,
-    "Camera": {"perspective": {"float fov"}},
-    "Sampler": {"lowdiscrepancy": {"integer pixelsamples"}, "zsobol": {"integer pixelsamples"}},
-    "Film": {
-        name: {"integer xresolution", "integer yresolution", "string filename"}
-        for name in ("image", "rgb")
-    },
-    "SurfaceIntegrator": {"directlighting": {"integer maxdepth"}},
-    "Integrator": {"path": {"integer maxdepth"}},
-    "LightSource": {"infinite": {"rgb L"}, "point": {"rgb I", "point from", "point3 from"}},
-    "Material": {"measured": {"string filename"}},
-    "Shape": {"sphere": {"float radius"}},
-    "WorldBegin": 0,
-    "WorldEnd": 0,
-    "AttributeBegin": 0,
-    "AttributeEnd": 0,
-}
-ONLY = {
-    "pbrt-v2": {"WorldEnd", "SurfaceIntegrator", "point from", "image", "lowdiscrepancy"},
-    "pbrt-v4": {"Integrator", "point3 from", "rgb", "zsobol"},
-}
-N_VALUES = {"rgb": 3, "point": 3, "point3": 3, "float": 1, "integer": 1, "string": 1}
-PARAMETER = re.compile(r'\s*"(\w+) (\w+)" \[([^\]]*)\]')
+@pytest.mark.parametrize(
+    ("change", "version"),
+    [
+        (("Scale -1 1 1", "Scale -1 1"), "pbrt-v4"),
+        (("point3 from", "point from"), "pbrt-v4"),
+        (("float fov", "integer fov"), "pbrt-v4"),
+        (("zsobol", "sobl"), "pbrt-v4"),
+        (("WorldBegin", ""), "pbrt-v4"),
+        (("AttributeEnd", ""), "pbrt-v4"),
+        (("[512] ", "[51.2] "), "pbrt-v4"),
+        (("", ""), "pbrt-v2"),
+    ],
+)
+def test_the_grammar_is_strict(tmp_path, table, change, version):
+    write_scene(tmp_path, table, "pbrt-v4")
+    with pytest.raises((AssertionError, KeyError, ValueError)):
+        parse((tmp_path / "scene.pbrt").read_text().replace(*change), version)
 
 
-def require_directive(line, renderer):
-    name, _, rest = line.partition(" ")
-    known = DIRECTIVES[name]
-    (other,) = set(ONLY) - {renderer}
-    assert name not in ONLY[other]
-    if isinstance(known, int):
-        assert len([float(number) for number in rest.split()]) == known
-        return
-    kind, rest = re.fullmatch(r'"([\w-]+)"(.*)', rest).groups()
-    assert kind in known
-    assert kind not in ONLY[other]
-    end = 0
-    for parameter in PARAMETER.finditer(rest):
-        assert parameter.start() == end
-        end = parameter.end()
-        type_, label, values = parameter.groups()
-        assert f"{type_} {label}" in known[kind]
-        assert f"{type_} {label}" not in ONLY[other]
-        assert len(values.split()) == N_VALUES[type_]
-        if type_ == "string":
-            assert re.fullmatch(r'"[^"]+"', values)
-        else:
-            assert [float(value) for value in values.split()]
-    assert end == len(rest)
+def test_the_key_light_is_on_the_left_of_pbrts_picture(tmp_path, table):
+    """As in Mitsuba's. The pages: left-handed coordinates; LookAt puts up x direction along the camera's x, its right."""
+    write_scene(tmp_path, table, "pbrt-v4")
+    directives = parse((tmp_path / "scene.pbrt").read_text(), "pbrt-v4")
+    (scale,) = [d.numbers for d in directives if d.name == "Scale"]
+    eye, target, up = np.reshape([d.numbers for d in directives if d.name == "LookAt"], (3, 3))
+    key = max((d for d in directives if d.kind == "point"), key=lambda d: d.parameters["I"][0])
+    to_the_right = scale[0] * np.cross(up, target - eye)
+    assert to_the_right @ (np.array(key.parameters["from"]) - eye) < 0
+    assert directives[0].name == "Scale"
+
+
+def test_pbrt_v2_reads_no_other_grid(tmp_path, table):
+    with pytest.raises(
+        OutputError, match="gold-paint has 20 x 20 x 40 cells, and pbrt-v2 reads none but"
+    ):
+        write_scene(tmp_path, table, "pbrt-v2")
 
 
 def test_the_folder_says_how_to_render_it(tmp_path, table):
-    for renderer in ("mitsuba", "pbrt-v2", "pbrt-v4"):
-        written = write_scene(tmp_path / renderer, table, renderer)
+    for renderer in RENDERERS:
+        brdf = (
+            TabularBrdf(np.full((3, *MERL.shape), 0.1, np.float32), MERL)
+            if renderer == "pbrt-v2"
+            else table
+        )
+        written = write_scene(
+            tmp_path / renderer, brdf, renderer, name="gold-paint", origin="Made of gold."
+        )
         readme = (tmp_path / renderer / "README.md").read_text()
-        assert readme.startswith("# gold-paint")
-        assert written.command in readme
+        assert readme.startswith("# gold-paint\n\nMade of gold.\n")
+        assert f"\n    {written.command}\n" in readme
+    assert "without interpolation" in (tmp_path / "pbrt-v2" / "README.md").read_text()
+    assert "samples the cosine only" in (tmp_path / "pbrt-v2" / "README.md").read_text()
+
+
+def test_what_the_page_says_of_the_exact_scene_works(gold):
+    """Python of the page, in a process of its own, in the folder."""
+    (code,) = re.findall(r'python -c "\n(.*?)\n    "', (gold.folder / "README.md").read_text(), re.DOTALL)  # fmt: skip
+    code = "\n".join(line.removeprefix("    ") for line in code.splitlines())
+    subprocess.run([sys.executable, "-c", code], cwd=gold.folder, check=True, capture_output=True)
+    assert (gold.folder / "scene-exact.exr").stat().st_size > 1000
 
 
 def test_an_unknown_renderer_is_said(tmp_path, table):
     with pytest.raises(
         OutputError, match="arnold is no renderer to export to: expected mitsuba or"
     ):
-        write_scene(tmp_path, table, "arnold")
+        write_scene(tmp_path / "x", table, "arnold")
+    assert not (tmp_path / "x").exists()
+
+
+# The command
+
+
+@pytest.fixture
+def halfway():
+    return lambda *words: CliRunner().invoke(app, list(words))
+
+
+def test_export_writes_a_mix_and_says_whose_numbers_it_stands_on(tmp_path, halfway):
+    done = halfway("export", "gold-paint=0.7, teflon=0.3", "--for", "pbrt-v2", "-o", str(tmp_path))
+    assert done.exit_code == 0, done.output
+    assert f"cd {tmp_path} && pbrt scene.pbrt" in done.stderr
+    readme = (tmp_path / "README.md").read_text()
+    assert '`{"gold-paint": 0.7, "teflon": 0.3}`' in readme
+    assert "not measurements" in readme
+    assert_allclose(
+        read_brdf(tmp_path / "material.binary").eval(UP, UP),
+        0.7 * read_eval("gold-paint") + 0.3 * read_eval("teflon"),
+        rtol=1e-5,
+    )
+
+
+def read_eval(name):
+    return tabulate(builtin("merl-abc").models[name], MERL).eval(UP, UP)
+
+
+def test_several_materials_get_a_folder_each(tmp_path, halfway, table):
+    from halfway.formats import write_merl
+
+    for name in ("a", "b"):
+        write_merl(tmp_path / f"{name}.binary", table)
+    files = [str(tmp_path / f"{name}.binary") for name in ("a", "b")]
+    done = halfway("export", *files, "--for", "pbrt-v4", "-o", str(tmp_path / "out"))
+    assert done.exit_code == 0, done.output
+    assert sorted(p.name for p in (tmp_path / "out").iterdir()) == ["a", "b"]
+    done = halfway("export", files[0], files[0], "--for", "pbrt-v4", "-o", str(tmp_path / "twice"))
+    assert sorted(p.name for p in (tmp_path / "twice").iterdir()) == ["000-a", "001-a"]
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["gold-paint", "--for", "arnold", "-o", "x"], "'arnold' is not one of"),
+        (["gold-paint", "-o", "x"], "Missing option '--for'"),
+        (["gold-paint", "--for", "mitsuba"], "Missing option '--output'"),
+    ],
+)
+def test_a_mistake_is_said(halfway, words, said):
+    done = halfway("export", *words)
+    assert done.exit_code == 2
+    assert said in done.stderr

@@ -1,30 +1,49 @@
 """A folder that a renderer runs as it is: a material, a scene that shows it on a sphere, and a page that says how.
 
-The scene is the same everywhere: a sphere of radius 1 at the origin, z up, a camera at (0, -7, 2), an even dim
-environment and three point lights; direct light.
+The scene is the same everywhere: a sphere of radius 1 at the origin, z up, a camera at (0, -7, 2) that sees x to the right,
+an even dim environment and three point lights; direct light.
 
     mitsuba   scene.xml with the stock `measured` plugin and material.bsdf; scene-exact.xml with `halfway_table` and
               material.binary, the table itself
-    pbrt-v2   scene.pbrt with `measured` and material.binary. pbrt-v2 takes the value of the cell, without interpolation,
-              and samples the cosine only: mirror-like materials take many samples
+    pbrt-v2   scene.pbrt with `measured` and material.binary, on the database's grid: it reads no other
     pbrt-v4   scene.pbrt with `measured` and material.bsdf, spectral
 
-Syntax: the file format pages of Mitsuba 3, pbrt-v2 and pbrt-v4.
+pbrt's coordinates are left-handed: a scale of -1 along x before the camera makes its pictures those of the other.
+
+Syntax: the plugin reference of Mitsuba 3; https://pbrt.org/fileformat-v2 and https://pbrt.org/fileformat-v4.
 """
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 
-from ..brdf import TabularBrdf
+from ..brdf import Brdf, TabularBrdf, tabulate
 from ..errors import OutputError
 from ..files import replacing
 from ..formats import write_merl, write_rgl
+from ..halfdiff import MERL
 
 RENDERERS = ("mitsuba", "pbrt-v2", "pbrt-v4")
 
 _ENVIRONMENT = 0.3
 _LIGHTS = (((-4.0, -5.0, 6.0), 90.0), ((5.5, -4.0, 2.0), 30.0), ((4.5, 3.0, 5.0), 60.0))
 _SIZE, _SAMPLES, _FOV = 512, 64, 20
+
+
+class _Pbrt(NamedTuple):
+    """What the versions of pbrt call differently."""
+
+    film: str
+    sampler: str
+    integrator: str
+    point: str
+    end: str
+
+
+_PBRT = {
+    "pbrt-v2": _Pbrt("image", "lowdiscrepancy", 'SurfaceIntegrator "directlighting"', "point", "WorldEnd\n"),
+    "pbrt-v4": _Pbrt("rgb", "zsobol", 'Integrator "path"', "point3", ""),
+}  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -36,44 +55,82 @@ class SceneFolder:
     command: str
 
 
-def write_scene(folder: str | Path, table: TabularBrdf, renderer: str) -> SceneFolder:
-    """Write a material on a MERL grid with a scene for ``renderer`` into ``folder``, which is made if need be.
+def write_scene(
+    folder: str | Path, brdf: Brdf, renderer: str, *, name: str = "", origin: str = ""
+) -> SceneFolder:
+    """Write a material with a scene for ``renderer`` into ``folder``, which is made if need be.
+
+    Parameters
+    ----------
+    folder : path
+        What is there under the same names is replaced.
+    brdf : Brdf
+        Any; pbrt-v2, and the exact scene for Mitsuba, take it as a table.
+    renderer : str
+        One of `RENDERERS`.
+    name : str
+        What the page calls the material; by default its own name.
+    origin : str
+        Lines for the page: what the material is made of, whose numbers it stands on.
 
     Raises
     ------
     OutputError
-        When there is no such renderer, the grid is none that a MERL file holds, or a file cannot be written.
+        When there is no such renderer, the table's grid is none that it reads, or a file cannot be written.
     """
     folder = Path(folder)
-    if renderer not in RENDERERS:
-        raise OutputError(
-            f"{renderer} is no renderer to export to: expected {' or '.join(RENDERERS)}."
-        )
-    binary, bsdf = folder / "material.binary", folder / "material.bsdf"
-    folder.mkdir(parents=True, exist_ok=True)
+    name = name or str(getattr(brdf, "name", "")) or "a material"
     match renderer:
         case "mitsuba":
-            write_rgl(bsdf, table)
-            write_merl(binary, table)
+            notes = _write_bsdf(folder / "material.bsdf", brdf)
+            write_merl(folder / "material.binary", _table(brdf, name))
             texts = {
-                "scene.xml": _mitsuba("measured", bsdf.name),
-                "scene-exact.xml": _mitsuba("halfway_table", binary.name),
+                "scene.xml": _mitsuba("measured", "material.bsdf"),
+                "scene-exact.xml": _mitsuba("halfway_table", "material.binary"),
             }
-            written, command = [bsdf, binary], "mitsuba -m scalar_rgb scene.xml"
+            files, command = ["material.bsdf", "material.binary"], "mitsuba -m scalar_rgb scene.xml"
+            notes = f"{notes}\n\n{_EXACT}"
         case "pbrt-v2":
-            write_merl(binary, table)
-            texts = {"scene.pbrt": _pbrt_v2(binary.name)}
-            written, command = [binary], "pbrt scene.pbrt"
+            write_merl(folder / "material.binary", _on_the_grid_of_the_database(_table(brdf, name)))
+            texts = {"scene.pbrt": _pbrt(_PBRT[renderer], "material.binary")}
+            files, command, notes = ["material.binary"], "pbrt scene.pbrt", _FLOOR
+        case "pbrt-v4":
+            notes = _write_bsdf(folder / "material.bsdf", brdf, spectral=True)
+            texts = {"scene.pbrt": _pbrt(_PBRT[renderer], "material.bsdf")}
+            files, command = ["material.bsdf"], "pbrt scene.pbrt"
         case _:
-            write_rgl(bsdf, table, spectral=True)
-            texts = {"scene.pbrt": _pbrt_v4(bsdf.name)}
-            written, command = [bsdf], "pbrt scene.pbrt"
-    texts["README.md"] = _readme(table.name or "a material", renderer, command)
-    for name, text in texts.items():
-        with replacing(folder / name) as temporary:
+            raise OutputError(
+                f"{renderer} is no renderer to export to: expected {' or '.join(RENDERERS)}."
+            )
+    texts["README.md"] = _readme(name, origin, command, notes)
+    for file, text in texts.items():
+        with replacing(folder / file) as temporary:
             temporary.write_text(text, encoding="utf-8")
-        written.append(folder / name)
-    return SceneFolder(folder, tuple(written), command)
+    return SceneFolder(folder, tuple(folder / file for file in (*files, *texts)), command)
+
+
+def _write_bsdf(path: Path, brdf: Brdf, *, spectral: bool = False) -> str:
+    """Write the file, and say how well it stands for the material."""
+    written = write_rgl(path, brdf, spectral=spectral)
+    n_theta_i, side = written.resolution
+    colours = "smooth spectra of linear sRGB colours" if spectral else "linear sRGB colours"
+    return (
+        f"`{path.name}` holds {colours} for {n_theta_i} directions of {side} x {side} values each: on a lit sphere "
+        f"{written.quality.psnr:.1f} dB from the material, {written.quality.relative_l1:.2%} mean error."
+    )
+
+
+def _table(brdf: Brdf, name: str) -> TabularBrdf:
+    return brdf if isinstance(brdf, TabularBrdf) else tabulate(brdf, MERL, name=name)
+
+
+def _on_the_grid_of_the_database(table: TabularBrdf) -> TabularBrdf:
+    if table.grid != MERL:
+        raise OutputError(
+            f"{table.name or 'the table'} has {table.grid} cells, and pbrt-v2 reads none but the database's {MERL}: "
+            "export it for mitsuba or pbrt-v4, or sample it on that grid first."
+        )
+    return table
 
 
 def _mitsuba(plugin: str, file: str) -> str:
@@ -114,16 +171,17 @@ def _mitsuba(plugin: str, file: str) -> str:
 """
 
 
-def _pbrt_v2(file: str) -> str:
+def _pbrt(version: _Pbrt, file: str) -> str:
     lights = "\n".join(
-        f'LightSource "point" "rgb I" [{i} {i} {i}] "point from" [{x} {y} {z}]'
+        f'LightSource "point" "rgb I" [{i} {i} {i}] "{version.point} from" [{x} {y} {z}]'
         for (x, y, z), i in _LIGHTS
     )
-    return f"""LookAt 0 -7 2  0 0 0  0 0 1
+    return f"""Scale -1 1 1
+LookAt 0 -7 2  0 0 0  0 0 1
 Camera "perspective" "float fov" [{_FOV}]
-Film "image" "integer xresolution" [{_SIZE}] "integer yresolution" [{_SIZE}] "string filename" ["scene.exr"]
-Sampler "lowdiscrepancy" "integer pixelsamples" [{_SAMPLES}]
-SurfaceIntegrator "directlighting" "integer maxdepth" [1]
+Film "{version.film}" "integer xresolution" [{_SIZE}] "integer yresolution" [{_SIZE}] "string filename" ["scene.exr"]
+Sampler "{version.sampler}" "integer pixelsamples" [{_SAMPLES}]
+{version.integrator} "integer maxdepth" [1]
 WorldBegin
 LightSource "infinite" "rgb L" [{_ENVIRONMENT} {_ENVIRONMENT} {_ENVIRONMENT}]
 {lights}
@@ -131,41 +189,28 @@ AttributeBegin
 Material "measured" "string filename" ["{file}"]
 Shape "sphere" "float radius" [1]
 AttributeEnd
-WorldEnd
-"""
+{version.end}"""
 
 
-def _pbrt_v4(file: str) -> str:
-    lights = "\n".join(
-        f'LightSource "point" "rgb I" [{i} {i} {i}] "point3 from" [{x} {y} {z}]'
-        for (x, y, z), i in _LIGHTS
-    )
-    return f"""LookAt 0 -7 2  0 0 0  0 0 1
-Camera "perspective" "float fov" [{_FOV}]
-Film "rgb" "integer xresolution" [{_SIZE}] "integer yresolution" [{_SIZE}] "string filename" ["scene.exr"]
-Sampler "zsobol" "integer pixelsamples" [{_SAMPLES}]
-Integrator "path" "integer maxdepth" [1]
-WorldBegin
-LightSource "infinite" "rgb L" [{_ENVIRONMENT} {_ENVIRONMENT} {_ENVIRONMENT}]
-{lights}
-AttributeBegin
-Material "measured" "string filename" ["{file}"]
-Shape "sphere" "float radius" [1]
-AttributeEnd
-"""
+_EXACT = """`scene-exact.xml` shows the table itself, where halfway is installed:
+
+    python -c "
+    from halfway.render import register
+    register()
+    import mitsuba as mi
+    mi.util.write_bitmap('scene-exact.exr', mi.render(mi.load_file('scene-exact.xml')))
+    \""""
+
+_FLOOR = """pbrt-v2 takes the value of the cell that a pair of directions falls into, without interpolation, shows what was not measured
+as black, and samples the cosine only: give mirror-like materials more `pixelsamples`."""
 
 
-def _readme(name: str, renderer: str, command: str) -> str:
-    notes = {
-        "mitsuba": "`scene-exact.xml` shows the table itself: call `halfway.render.register()` before loading it.",
-        "pbrt-v2": "pbrt-v2 looks up the nearest cell and samples the cosine only: give mirror-like materials more samples.",
-        "pbrt-v4": "The file holds smooth spectra of the table's linear sRGB colours.",
-    }
-    return f"""# {name}
-
-A sphere of {name}, under an even environment and three point lights. In this folder:
-
-    {command}
-
-{notes[renderer]}
-"""
+def _readme(name: str, origin: str, command: str, notes: str) -> str:
+    paragraphs = [
+        f"# {name}",
+        origin,
+        f"A sphere of {name}, under an even environment and three point lights. In this folder:",
+        f"    {command}",
+        notes,
+    ]
+    return "\n\n".join(filter(None, paragraphs)) + "\n"
