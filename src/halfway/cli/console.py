@@ -11,6 +11,9 @@ from ..errors import HalfwayError
 
 T = TypeVar("T")
 
+INTERRUPTED = 130
+"""The exit code after Ctrl-C."""
+
 PATIENCE = 1.0
 """Seconds before a progress bar appears."""
 
@@ -36,18 +39,24 @@ def _bar(items: Iterable[T], label: str, total: int) -> Iterator[T]:
     )
 
     columns = TextColumn(label), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn()
-    progress = Progress(*columns, console=Console(stderr=True), transient=True)
-    task = progress.add_task(label, total=total)
+    rate = TextColumn("{task.fields[rate]}")
+    progress = Progress(*columns, rate, console=Console(stderr=True), transient=True)
+    task = progress.add_task(label, total=total, rate="")
     start = time.monotonic()
     try:
         for item in items:
             yield item
-            progress.advance(task)
+            speed = progress.tasks[0].speed
+            progress.update(task, advance=1, rate=_rate(speed) if speed else "")
             if not progress.live.is_started and time.monotonic() - start > PATIENCE:
                 progress.start()
     finally:
         if progress.live.is_started:
             progress.stop()
+
+
+def _rate(per_second: float) -> str:
+    return f"{per_second:.1f}/s" if per_second >= 1 else f"{1 / per_second:.1f} s each"
 
 
 def run(app: Callable[[], None]) -> None:
@@ -62,11 +71,11 @@ def run(app: Callable[[], None]) -> None:
             raise
         say(f"halfway: {_one_line(error)}")
         sys.exit(1)
-    except KeyboardInterrupt:
-        say(
-            "halfway: interrupted; what was finished is kept, and the same command goes on from there."
-        )
-        sys.exit(130)
+    except SystemExit as stop:
+        # Typer makes a silent exit of Ctrl-C.
+        if stop.code == INTERRUPTED:
+            raise KeyboardInterrupt from None
+        raise
 
 
 def _one_line(error: Exception) -> str:

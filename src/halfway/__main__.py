@@ -1,0 +1,21 @@
+"""The ``halfway`` command, and ``python -m halfway``: Ctrl-C at any moment, even while it starts, is one line and exit 130."""
+
+import sys
+
+
+def main() -> None:
+    """Run the command line."""
+    try:
+        from .cli import main as run
+
+        run()
+    except KeyboardInterrupt:
+        print(
+            "halfway: interrupted; what was finished is kept, and the same command goes on from there.",
+            file=sys.stderr,
+        )
+        sys.exit(130)
+
+
+if __name__ == "__main__":
+    main()
