@@ -17,6 +17,7 @@ Every mistake is answered as ``{"error": "one line"}``.
 from collections.abc import AsyncIterator, Iterable
 from importlib.metadata import version
 from pathlib import Path as FolderPath
+from threading import Thread
 from typing import Annotated, Any
 
 from fastapi import FastAPI, Path, Query, Request, Response
@@ -49,9 +50,15 @@ def create_app(
     cache: FolderPath | None = None,
     track: Track = silent,
     hosts: Iterable[str] = LOOPBACK,
+    warm: bool = False,
 ) -> FastAPI:
-    """The application that answers for ``library``; without a ``page`` it is the API alone."""
+    """The application that answers for ``library``.
+
+    Without a ``page`` it is the API alone. ``warm`` prepares, beside the first answers, what the first route would wait for.
+    """
     explorer = Explorer(library, cache=cache, track=track)
+    if warm:
+        Thread(target=explorer.warm, daemon=True).start()
     app = FastAPI(
         title="halfway",
         version=version("halfway"),

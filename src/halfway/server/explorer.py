@@ -32,6 +32,7 @@ from ..space import (
 from ..space.hull import nearest_in_hull
 from ..space.triangulation import Triangulation
 from ..space.walk import DelaunayWalk
+from ..space.walk import DelaunayWalk
 from ..tasks import Track, silent
 from .blocks import Block
 from .embedding import look_at
@@ -80,6 +81,10 @@ class Explorer:
         self._tables: OrderedDict[str, Block] = OrderedDict()
         self._mixer = Mixer(library, n_rows=8)
         self._lock = Lock()
+
+    def warm(self) -> None:
+        """Make what the first route needs: compiled metrics and solvers take a second to load."""
+        self.route(SPACES[0], [self.library.names[0], self.library.names[-1]], PACES[0])
 
     def summary(self) -> LibrarySummary:
         """What is being explored."""

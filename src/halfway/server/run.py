@@ -7,12 +7,9 @@ import webbrowser
 from contextlib import suppress
 from pathlib import Path
 
-import uvicorn
-
 from ..errors import HalfwayError
 from ..library import Library
 from ..tasks import Track, silent
-from .app import create_app
 from .page import Page
 
 PORT = 8765
@@ -36,13 +33,17 @@ def serve(
         When this installation has no page, or no port can be had.
     """
     page = Page.load()
-    app = create_app(library, page=page, cache=cache, track=track)
     with listen(port) as listener:
         address = f"http://127.0.0.1:{listener.getsockname()[1]}/"
         print(f"{library.name}: {address} (Ctrl-C stops)", file=sys.stderr, flush=True)
         if open_browser:
-            # The socket listens already: the browser waits until the first answer.
+            # The socket listens already: the browser starts meanwhile, and waits until the first answer.
             threading.Thread(target=webbrowser.open, args=[address], daemon=True).start()
+        import uvicorn
+
+        from .app import create_app
+
+        app = create_app(library, page=page, cache=cache, track=track, warm=True)
         config = uvicorn.Config(
             app, log_level="warning", access_log=False, timeout_graceful_shutdown=1
         )

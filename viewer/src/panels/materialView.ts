@@ -138,16 +138,19 @@ function paint(
     if (recipe[0]) measure(recipe[0].name, light);
     const names = [...new Set([...recipe, ...otherRecipe].map(({ name }) => name))];
     const missing = names.filter((name) => tables.get(name) === undefined);
-    const working = painter.improve(names, loop.budget);
+    const budget = loop.budget();
+    // What has no picture at all gets one in any case.
+    const blank = painter.improve(names, 1, 1);
+    const working = painter.improve(names, budget) || blank;
     // Then what the slider meets next, at a few samples: crossing into it shows at once.
     const ahead =
-      !working && painter.improve(comingUp().slice(0, N_AHEAD), Math.ceil(loop.budget / 2), SAMPLES_AHEAD);
+      !working && painter.improve(comingUp().slice(0, N_AHEAD), Math.ceil(budget / 2), SAMPLES_AHEAD);
     painter.show(recipe, otherRecipe, split, 2 ** exposure);
     const samples = names.length && !missing.length ? painter.samples(names) : 0;
     note.textContent = missing.length
-      ? `loading ${missing.length} of ${names.length} tables`
+      ? `loading ${names.length === 1 ? "the table" : `${names.length} tables`}, ${Math.round(100 * tables.share(names))} %`
       : `${samples} / ${painter.targetSamples} samples`;
-    const share = missing.length ? 1 - missing.length / names.length : samples / painter.targetSamples;
+    const share = missing.length ? tables.share(names) : samples / painter.targetSamples;
     progress.style.transform = `scaleX(${share < 1 ? share : 0})`;
     if (samples >= (refined && quality < 1 ? Math.min(SAMPLES_TO_SHOW, painter.targetSamples) : 1))
       hold.hidden = true;
@@ -180,11 +183,14 @@ function paint(
     () => loop.run(),
   );
   store.watch(
-    ({ recipe, otherRecipe }) => [recipe, otherRecipe],
+    ({ recipe, otherRecipe }) => [recipe, otherRecipe] as const,
     ([recipe, otherRecipe]) => {
-      tables.want([...new Set([...[...recipe!, ...otherRecipe!].map(({ name }) => name), ...comingUp()])]);
+      const needed = [...new Set([...recipe, ...otherRecipe].map(({ name }) => name))];
+      // Before the route has come, its stops are a good guess.
+      tables.want(needed, needed.length ? comingUp() : store.get().stops);
     },
   );
+  tables.onProgress = () => loop.goOn();
   tables.onChange = (problem) => {
     if (problem) store.set({ problem });
     store.set({ arrived: store.get().arrived + 1 });
@@ -241,17 +247,22 @@ function exposure({ store }: Context): HTMLElement {
 }
 
 /** Without WebGL2: the small pictures, mixed on the processor. */
-function stillPictures({ store, thumbnails }: Context, panel: HTMLElement, reason: string): void {
+function stillPictures({ store, tables, thumbnails }: Context, panel: HTMLElement, reason: string): void {
   const canvas = el("canvas.view.still", { width: thumbnails.size, height: thumbnails.size });
   panel.prepend(
     canvas,
     el("p.reason", { role: "status" }, {}, `A small picture stands in for the live one. ${reason}`),
   );
   panel.querySelector(".overlay.bottom")?.remove();
+  tables.onChange = (problem) => {
+    store.set({ arrived: store.get().arrived + 1, ...(problem !== null && { problem }) });
+  };
   store.watch(
     ({ recipe }) => recipe,
     (recipe) => {
       if (recipe.length === 0) return;
+      // Of the other panels, the BRDF's draws from them.
+      tables.want(recipe.map(({ name }) => name));
       canvas.getContext("2d")!.putImageData(thumbnails.picture(recipe), 0, 0);
       panel.dataset.ready = "still";
     },

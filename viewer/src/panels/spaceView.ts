@@ -8,8 +8,11 @@ import { recipeAt, weightIn } from "../recipe";
 import { Appearance } from "../render/appearance";
 import { Cloud } from "../render/cloud";
 import { Scores } from "../render/display";
+import { paced } from "../render/loop";
 
 const APPEARANCE = "Looks";
+/** Milliseconds between drawings: what moves is the material, and this stands beside it. */
+const BESIDE = 60;
 const ROUTE_POINTS = 160;
 /** About what a label takes, in CSS pixels. */
 const LABEL = { width: 150, height: 23 };
@@ -129,16 +132,10 @@ export function spaceView(context: Context): HTMLElement {
     draw();
   };
 
-  let scheduled = false;
-  const draw = () => {
-    if (scheduled) return;
-    scheduled = true;
-    requestAnimationFrame(() => {
-      scheduled = false;
-      cloud.draw();
-      placeLabels();
-    });
-  };
+  const draw = paced(() => {
+    cloud.draw();
+    placeLabels();
+  }, BESIDE);
   const here = el("div.here");
   let here3d: Vector3 | null = null;
   /** Where a person pointed, when no mix is there. */

@@ -26,13 +26,18 @@ export interface TableOnCard {
 
 /** 11.7 MB each on the MERL grid. */
 const MAX_TABLES = 24;
+/** How many are fetched that only the way ahead needs. */
+const MAX_AHEAD = 4;
 const AT_ONCE = 2;
 
 export class Tables {
   /** Runs when a table has come, or could not. */
   onChange: (problem: string | null) => void = () => {};
+  /** Runs when more of a table has come. */
+  onProgress: () => void = () => {};
   private readonly loaded = new Map<string, TableOnCard>();
-  private readonly loading = new Set<string>();
+  /** The share of each that has come. */
+  private readonly loading = new Map<string, number>();
   private readonly failed = new Set<string>();
   private wanted: readonly string[] = [];
 
@@ -45,9 +50,18 @@ export class Tables {
     return this.loaded.get(name);
   }
 
-  /** Materials in order of urgency; what is not among them may go. */
-  want(names: readonly string[]): void {
-    this.wanted = names.slice(0, MAX_TABLES);
+  /** The share of these tables that is here, in [0, 1]. */
+  share(names: readonly string[]): number {
+    const shares = names.map((name) => (this.loaded.has(name) ? 1 : (this.loading.get(name) ?? 0)));
+    return shares.reduce((a, b) => a + b, 0) / Math.max(names.length, 1);
+  }
+
+  /** All that are needed now, and some of those that come next, both in order of urgency; what is not among them may go. */
+  want(needed: readonly string[], ahead: readonly string[] = []): void {
+    const next = ahead.filter((name) => !needed.includes(name));
+    const missing = next.filter((name) => !this.loaded.has(name)).slice(0, MAX_AHEAD);
+    const kept = next.filter((name) => this.loaded.has(name) || missing.includes(name));
+    this.wanted = [...needed, ...kept].slice(0, Math.max(MAX_TABLES, needed.length));
     this.fetchNext();
   }
 
@@ -55,7 +69,7 @@ export class Tables {
     for (const name of this.wanted) {
       if (this.loading.size >= AT_ONCE) return;
       if (this.loaded.has(name) || this.loading.has(name) || this.failed.has(name)) continue;
-      this.loading.add(name);
+      this.loading.set(name, 0);
       void this.fetch(name);
     }
   }
@@ -63,7 +77,10 @@ export class Tables {
   private async fetch(name: string): Promise<void> {
     let problem: string | null = null;
     try {
-      const block = await this.client.table(name);
+      const block = await this.client.table(name, (share) => {
+        this.loading.set(name, share);
+        this.onProgress();
+      });
       this.makeRoom();
       this.loaded.set(name, toCard({ name, grid: this.grid, halfs: block.halfs, scale: block.scale }));
     } catch (error) {

@@ -3,6 +3,7 @@
 import type { Axis } from "../../api/schema";
 import type { Context } from "../../context";
 import { el, onResize, segments, style } from "../../dom";
+import { paced } from "../../render/loop";
 import { albedo } from "./albedo";
 import { lobes } from "./lobes";
 import { type Pen, type Plot, type Reading, SCALES, type Scale, short } from "./plot";
@@ -13,6 +14,8 @@ type View = "lobes" | "slice" | "albedo";
 
 /** Milliseconds of a frame that the samples may take. */
 const PATIENCE = 14;
+/** Milliseconds between drawings: the picture of the material comes first. */
+const BESIDE = 60;
 const ANGLES: Record<View, { readonly name: readonly [string, string]; readonly max: number } | null> = {
   lobes: { name: ["θ", "i"], max: 85 },
   slice: { name: ["φ", "d"], max: 179 },
@@ -41,6 +44,7 @@ export function brdfPanel(context: Context): HTMLElement {
       },
     },
   );
+  let pen = toPen(context, canvas);
   const choice = segments<View>(
     "BRDF view",
     [
@@ -91,15 +95,7 @@ export function brdfPanel(context: Context): HTMLElement {
     }
     update();
   };
-  let scheduled = false;
-  const update = () => {
-    if (scheduled) return;
-    scheduled = true;
-    requestAnimationFrame(() => {
-      scheduled = false;
-      draw();
-    });
-  };
+  const update = paced(() => draw(), BESIDE);
   const plots: Record<View, () => Plot> = {
     lobes: () => lobes(degrees.lobes, scales.lobes),
     slice: () => slice(grid, degrees.slice, scales.slice),
@@ -118,7 +114,6 @@ export function brdfPanel(context: Context): HTMLElement {
       return;
     }
     const mixed = samples.mix(plot, recipe);
-    const pen = toPen(context, canvas);
     const size = { width: canvas.clientWidth, height: canvas.clientHeight };
     const ratio = canvas.width / size.width;
     pen.context.setTransform(ratio, 0, 0, ratio, 0, 0);
@@ -134,7 +129,14 @@ export function brdfPanel(context: Context): HTMLElement {
     // At once, so that it is not empty for a frame.
     draw();
   });
-  store.watch(({ recipe, arrived, scheme }) => [recipe, arrived, scheme], update);
+  store.watch(
+    ({ scheme }) => scheme,
+    () => {
+      pen = toPen(context, canvas);
+      update();
+    },
+  );
+  store.watch(({ recipe, arrived }) => [recipe, arrived], update);
   offer();
   return el(
     "section.panel.brdf",
