@@ -32,7 +32,6 @@ from ..space import (
 from ..space.hull import nearest_in_hull
 from ..space.triangulation import Triangulation
 from ..space.walk import DelaunayWalk
-from ..space.walk import DelaunayWalk
 from ..tasks import Track, silent
 from .blocks import Block
 from .embedding import look_at
