@@ -1,0 +1,67 @@
+"""The documentation says what is so: its examples run, its commands exist, its links lead somewhere."""
+
+import doctest
+import inspect
+import re
+from importlib import import_module
+from pathlib import Path
+
+import pytest
+
+import halfway
+
+ROOT = Path(__file__).parents[1]
+DOCS = ROOT / "docs"
+API = sorted(path for path in (DOCS / "api").glob("*.md") if path.stem != "index")
+PUBLIC = [path.stem for path in API if path.stem != "errors"]
+FENCE = re.compile(r"^```(?:pycon|\{public\} (\S+))\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+
+
+@pytest.mark.parametrize("page", API, ids=lambda path: path.stem)
+def test_examples_of_the_reference_run(page, tmp_path, monkeypatch):
+    """Those of a page are one program, in an empty folder."""
+    monkeypatch.chdir(tmp_path)
+    text = page.read_text()
+    # As many lines as in the page, so that a failure says where.
+    kept = ["" for _ in text.splitlines()]
+    for block in FENCE.finditer(text):
+        first = text.count("\n", 0, block.start(2))
+        lines = block[2].splitlines()
+        kept[first : first + len(lines)] = lines
+    test = doctest.DocTestParser().get_doctest("\n".join(kept), {}, page.name, str(page), 0)
+    runner = doctest.DocTestRunner(
+        optionflags=doctest.ELLIPSIS | doctest.IGNORE_EXCEPTION_DETAIL, verbose=False
+    )
+    told: list[str] = []
+    runner.run(test, out=told.append)
+    assert test.examples
+    assert not told, "".join(told)
+
+
+@pytest.mark.parametrize("module", PUBLIC)
+def test_every_public_name_has_a_docstring_and_an_example(module):
+    home = import_module(f"halfway.{module}")
+    examples = dict(FENCE.findall((DOCS / "api" / f"{module}.md").read_text()))
+    for name in home.__all__:
+        example = examples.get(f"halfway.{module}.{name}", "")
+        assert name in example, f"docs/api/{module}.md has no {{public}} example of {name}"
+        value = getattr(home, name)
+        if inspect.isclass(value) or inspect.isfunction(value):
+            assert value.__doc__, f"halfway.{module}.{name} has no docstring"
+
+
+def test_every_public_module_has_its_page():
+    modules = {
+        path.parent.name
+        for path in (ROOT / "src" / "halfway").glob("*/__init__.py")
+        if "__all__" in path.read_text()
+    }
+    assert modules == set(PUBLIC)
+
+
+def test_every_name_at_the_top_loads_and_is_public_where_it_lives():
+    assert set(dir(halfway)) == set(halfway.__all__)
+    public = {name for module in PUBLIC for name in import_module(f"halfway.{module}").__all__}
+    assert set(halfway.__all__) - public == {"HalfwayError"}
+    for name in halfway.__all__:
+        assert getattr(halfway, name) is not None
