@@ -41,3 +41,12 @@ def shared_data() -> Path:
 def small_library() -> ProceduralLibrary:
     """Nine random materials on a small grid, held in memory."""
     return ProceduralLibrary("small", random_tables(9, Grid.merl(6, 5, 8)), grid=Grid.merl(6, 5, 8))
+
+
+@pytest.fixture
+def mitsuba_spectral():
+    from halfway.render.variant import load_mitsuba
+
+    mi = load_mitsuba()
+    with mi.variant_context("scalar_spectral"):
+        yield mi

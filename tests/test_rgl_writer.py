@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
-from test_rgl import _mitsuba, directions, fields, plugin_values, viewers
+from rgl_files import directions, fields, plugin_values, viewers
 
 from halfway import Grid, TabularBrdf, tabulate
 from halfway.errors import OutputError
@@ -11,9 +11,10 @@ from halfway.formats import read_rgl
 from halfway.formats.rgl_quality import Quality, lit_sphere, quality
 from halfway.formats.rgl_reader import from_fields
 from halfway.formats.rgl_writer import RESOLUTIONS, WAVELENGTHS, Resolution, write_rgl
-from halfway.formats.spectra import rgb_weights, smooth_primaries
+from halfway.formats.spectra import smooth_primaries
 from halfway.formats.tensor_file import read_tensor_file
 from halfway.models import builtin
+from halfway.render.variant import load_mitsuba
 
 COARSE = Resolution(8, 16)
 GRID = Grid.merl(24, 24, 48)
@@ -166,13 +167,6 @@ def test_the_luminance_is_positive_and_small_below_the_horizon(tmp_path, glossy)
     assert grazing.min() < 1e-3 * grazing.mean()
 
 
-def test_smooth_primaries_are_reflectances_that_sum_to_1():
-    primaries = smooth_primaries(WAVELENGTHS)
-    assert primaries.min() >= 0
-    assert_allclose(primaries.sum(axis=1), 1, atol=1e-5)
-    assert_allclose(rgb_weights(WAVELENGTHS) @ primaries, np.eye(3), atol=1e-4)
-
-
 def test_a_folder_in_the_way_is_said(tmp_path, glossy):
     (tmp_path / "x").write_text("a file")
     with pytest.raises(OutputError, match="part of its path is a file"):
@@ -196,7 +190,7 @@ def test_mitsuba_shows_what_we_read(written):
     rng = np.random.default_rng(1)
     light, viewer = directions(rng, 500), viewers(rng, 500)
     ours = read_rgl(written / "False.bsdf").eval(light, viewer) * light[:, 2:]
-    mi = _mitsuba()
+    mi = load_mitsuba()
     with mi.variant_context("scalar_rgb"):
         theirs = plugin_values(mi, written / "False.bsdf", light, viewer)
     assert_allclose(ours, theirs, rtol=1e-4, atol=1e-4)
@@ -206,7 +200,7 @@ def test_mitsuba_loads_spectra_in_spectral_variants(written):
     rng = np.random.default_rng(2)
     light, viewer = directions(rng, 100), viewers(rng, 100)
     wavelengths = [460.0, 540.0, 600.0, 700.0]
-    mi = _mitsuba()
+    mi = load_mitsuba()
     with mi.variant_context("scalar_spectral"):
         spectra = plugin_values(mi, written / "True.bsdf", light, viewer, wavelengths)
     at = np.searchsorted(WAVELENGTHS, wavelengths)
@@ -217,7 +211,7 @@ def test_mitsuba_loads_spectra_in_spectral_variants(written):
 @pytest.mark.parametrize("degrees", [20, 70])
 def test_mitsuba_samples_what_its_density_says(written, degrees):
     """The stock plugin's chi-square test on our file: the samples fall as ``pdf`` says."""
-    mi = _mitsuba()
+    mi = load_mitsuba()
     with mi.variant_context("llvm_ad_rgb"):
         from mitsuba import chi2
 
@@ -235,7 +229,7 @@ def test_mitsuba_samples_what_its_density_says(written, degrees):
 
 def test_mitsuba_samples_in_proportion_to_the_material(written):
     """The weights f cos / pdf of the luminance hardly vary: no sample carries much more than another."""
-    mi = _mitsuba()
+    mi = load_mitsuba()
     with mi.variant_context("llvm_ad_rgb"):
         import drjit as dr
 

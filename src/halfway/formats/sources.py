@@ -141,11 +141,11 @@ class MemberSource(Source):
 
     @property
     def location(self) -> str:
-        return f"{self.archive.filename}:{self.member.filename}"
+        return f"{self.archive.filename}:{_printable(self.member.filename)}"
 
     @property
     def label(self) -> str:
-        return PurePosixPath(self.member.filename).name
+        return _printable(PurePosixPath(self.member.filename).name)
 
     @property
     def n_bytes(self) -> int:
@@ -191,3 +191,8 @@ def _members_by_offset(archive: Path) -> dict[int, MemberSource]:
 def by_name(path: PurePath) -> tuple[tuple[str, ...], str]:
     """Sorts files as the materials in them are called, by path without the suffix."""
     return (*path.parent.parts, path.stem), path.suffix
+
+
+def _printable(name: str) -> str:
+    """A name that came in a file, safe to show: a terminal would obey what is no character."""
+    return "".join(c if c.isprintable() else "?" for c in name)

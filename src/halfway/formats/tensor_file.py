@@ -154,10 +154,10 @@ class _Header:
     def field(self) -> _Field:
         (length,) = self._unpack("<H")
         field_name = self._take(length).decode("utf-8", errors="backslashreplace")
-        if length > _MAX_NAME:
+        if length > _MAX_NAME or not field_name.isprintable():
             raise FormatError(
-                f"{self._name} names a field by {length:,} bytes ({field_name[:20]!r}...): at most {_MAX_NAME} are read. "
-                "It is damaged."
+                f"{self._name} has a field named {field_name[:20]!r} ({length:,} bytes): expected at most {_MAX_NAME} "
+                "printable characters. It is damaged."
             )
         n_dimensions, code, offset = self._unpack("<HBQ")
         if n_dimensions > _MAX_DIMENSIONS:
