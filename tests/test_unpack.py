@@ -1,0 +1,73 @@
+"""Zips that came over the network: nothing in them is trusted."""
+
+import io
+import stat
+import zipfile
+
+import pytest
+
+from halfway.errors import FetchError
+from halfway.fetch.unpack import unpack
+
+
+def zipped(members):
+    content = io.BytesIO()
+    with zipfile.ZipFile(content, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name, data in members.items():
+            archive.writestr(name, data)
+    return content.getvalue()
+
+
+@pytest.mark.parametrize(
+    "name", ["../out", "/etc/out", "a/../../out", "C:\\out", "..\\out", "C:out"]
+)
+def test_no_member_leaves_the_folder(tmp_path, name):
+    (tmp_path / "x.zip").write_bytes(zipped({"fine": b"1", name: b"2"}))
+    with pytest.raises(FetchError, match="leads out of the folder"):
+        unpack(tmp_path / "x.zip", tmp_path / "in" / "side")
+    assert [p.name for p in tmp_path.rglob("*")] == ["x.zip"]
+
+
+def test_no_link_is_made(tmp_path):
+    link = zipfile.ZipInfo("link")
+    link.external_attr = (stat.S_IFLNK | 0o777) << 16
+    with zipfile.ZipFile(tmp_path / "x.zip", "w") as archive:
+        archive.writestr(link, "/etc/passwd")
+    with pytest.raises(FetchError, match="has a link in it, 'link'"):
+        unpack(tmp_path / "x.zip", tmp_path)
+
+
+def test_a_bomb_is_refused_before_a_byte_is_written(tmp_path):
+    (tmp_path / "x.zip").write_bytes(zipped({"bomb": bytes(3_000_000)}))
+    with pytest.raises(FetchError, match=r"would unpack to 3,000,000 bytes from"):
+        unpack(tmp_path / "x.zip", tmp_path)
+    assert [p.name for p in tmp_path.iterdir()] == ["x.zip"]
+
+
+def test_a_member_that_lies_about_its_size_is_refused(tmp_path):
+    packed = zipped({"liar": bytes(range(256)) * 40})
+    # The size before packing, in the local header and in the directory.
+    packed = packed.replace((10_240).to_bytes(4, "little"), (100).to_bytes(4, "little"))
+    (tmp_path / "x.zip").write_bytes(packed)
+    with pytest.raises(FetchError, match="is a damaged zip"):
+        unpack(tmp_path / "x.zip", tmp_path)
+    assert [p.name for p in tmp_path.iterdir()] == ["x.zip"]
+
+
+@pytest.mark.parametrize("keep", [10, 60, -30])
+def test_a_damaged_zip_is_refused(tmp_path, keep):
+    (tmp_path / "x.zip").write_bytes(zipped({"a": bytes(range(256))})[:keep])
+    with pytest.raises(FetchError, match="is a damaged zip"):
+        unpack(tmp_path / "x.zip", tmp_path)
+    assert [p.name for p in tmp_path.iterdir()] == ["x.zip"]
+
+
+def test_a_member_without_a_name_is_refused(tmp_path):
+    packed = bytearray(zipped({"a": b"1"}))
+    directory = packed.index(b"PK\1\2")
+    # The name's length, in the directory; the name becomes the first byte of the extra field.
+    packed[directory + 28 : directory + 30] = b"\0\0"
+    packed[directory + 32 : directory + 34] = b"\1\0"
+    (tmp_path / "x.zip").write_bytes(bytes(packed))
+    with pytest.raises(FetchError, match=r"leads out of the folder|is a damaged zip"):
+        unpack(tmp_path / "x.zip", tmp_path / "in")
