@@ -34,6 +34,8 @@ ALBEDO_DEGREES = (5.0, 20.0, 40.0, 60.0, 75.0)
 N_SEARCHES = 2
 MOST_EVALUATIONS = 40
 TOLERANCE = 1e-3
+DECIMALS = 5
+"""Of the parameters: files hold them as they are, and what is nearly nothing is nothing."""
 STAY_NEUTRAL = 3e-3
 STAY_PASSIVE = 10.0
 
@@ -56,6 +58,14 @@ class Fit:
     def model_name(self) -> str:
         """The model's, one of `MODELS`."""
         return next(name for name, kind in MODELS.items() if isinstance(self.model, kind))
+
+    @property
+    def summary(self) -> str:
+        """What the model is and how far off, in words."""
+        return (
+            f"as {self.model.formula}: {self.picture.psnr:.1f} dB on a lit sphere, "
+            f"off by {self.picture.relative_l1:.1%} in the mean, albedo off by at most {self.albedo_error:.3f}"
+        )
 
     def to_json(self) -> dict[str, Any]:
         """The fit as a JSON object."""
@@ -135,7 +145,7 @@ def _search(kind: type[AnalyticModel], target: Target) -> tuple[AnalyticModel, f
         for start in starts[:N_SEARCHES]
     ]
     x = min(found, key=_cost).x
-    model = kind.from_vector(np.clip(x, low, high))
+    model = kind.from_vector(np.clip(x.round(DECIMALS), low, high))
     return model, float(np.linalg.norm(target.difference(model)[0]))
 
 

@@ -12,7 +12,7 @@ mix is the mix of the pictures.
 With more bounces the ground and the objects stand in one scene and light each other, and that no longer holds.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property
 from hashlib import sha256
 from pathlib import Path
@@ -23,7 +23,7 @@ from ..brdf import TabularBrdf
 from ..errors import RenderError
 from .denoise import denoised, denoiser_available, require_denoiser
 from .exposure import Exposure, Layer, no_progress
-from .scenes import SCENES, Scene
+from .scenes import SCENES, Material, Scene
 from .studio import studio
 from .variant import compiles, load_mitsuba, register
 
@@ -122,21 +122,22 @@ class Renderer:
 
     def picture(
         self,
-        brdf: TabularBrdf | Sequence[TabularBrdf],
+        brdf: Material | Sequence[Material],
         *,
         progress: Callable[[int, int], None] = no_progress,
     ) -> np.ndarray:
         """The picture of a material, float32, shape (height, width, 3): linear RGB radiance.
 
-        A scene of several materials takes as many tables; one table dresses all of its objects. ``progress`` is called
+        A scene of several materials takes as many tables; one table dresses all of its objects. A plugin of Mitsuba's,
+        as the dict that ``mitsuba.load_dict`` takes, may stand for a table. ``progress`` is called
         with the passes done and their number: a large picture takes several.
         """
-        tables = self._tables(brdf)
+        materials = self._materials(brdf)
         exposure = Exposure(self.spp, self.seed, guides=self._denoise, progress=progress)
         if self.bounces > 1:
-            layer = _over_background(self._stage.whole(tables, exposure, bounces=self.bounces))
+            layer = _over_background(self._stage.whole(materials, exposure, bounces=self.bounces))
         else:
-            layer = self._stage.objects(tables, exposure) + self._backdrop
+            layer = self._stage.objects(materials, exposure) + self._backdrop
         return denoised(layer) if self._denoise else layer.radiance
 
     def fingerprint(self) -> str:
@@ -166,17 +167,17 @@ class Renderer:
         seen = layer.albedo > 0
         return layer._replace(normal=layer.normal * seen)
 
-    def _tables(self, brdf: TabularBrdf | Sequence[TabularBrdf]) -> list[TabularBrdf]:
-        tables = [brdf] if isinstance(brdf, TabularBrdf) else list(brdf)
+    def _materials(self, brdf: Material | Sequence[Material]) -> list[Material]:
+        materials = [brdf] if isinstance(brdf, TabularBrdf | Mapping) else list(brdf)
         n = self.scene.n_materials
-        if len(tables) == 1:
-            tables = tables * n
-        if len(tables) != n:
+        if len(materials) == 1:
+            materials = materials * n
+        if len(materials) != n:
             raise RenderError(
-                f"the scene {self.scene.name} takes {n} materials: {len(tables)} were given. "
+                f"The scene {self.scene.name} takes {n} materials: {len(materials)} were given. "
                 "Give one for all objects or one for each."
             )
-        return tables
+        return materials
 
 
 def _over_background(layer: Layer) -> Layer:

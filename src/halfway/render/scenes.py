@@ -3,10 +3,15 @@
 World coordinates: x to the right of the camera, y away from it, z up; the ground is z = 0.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal
+
+from ..brdf import TabularBrdf
 
 Vector = tuple[float, float, float]
+Material = TabularBrdf | Mapping[str, Any]
+"""What an object wears: a table, or a plugin of Mitsuba's as its dict."""
 
 
 @dataclass(frozen=True)

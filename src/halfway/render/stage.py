@@ -9,12 +9,11 @@ from typing import Any
 import mitsuba as mi
 import numpy as np
 
-from ..brdf import TabularBrdf
 from .assets import read_environment, read_mesh
 from .camera import Window, camera_to_world, fov_degrees, window
 from .exposure import Exposure, Layer
 from .mesh import Mesh, placed, sweep
-from .scenes import Camera, Placed, PointLight, Scene
+from .scenes import Camera, Material, Placed, PointLight, Scene
 from .studio import as_bright_as_the_studio, studio
 from .teapot import tessellate
 from .variant import compiles
@@ -37,14 +36,14 @@ class Stage:
         self._wardrobe = Tables() if compiles(str(mi.variant())) else Files()
         self._scenes: dict[bool, list[Any]] = {}
 
-    def objects(self, tables: list[TabularBrdf], exposure: Exposure) -> Layer:
+    def objects(self, materials: list[Material], exposure: Exposure) -> Layer:
         """The objects under direct light. No light leaves the frame around them, so no more of it is rendered."""
-        self._dress(tables)
+        self._dress(materials)
         return _photograph(self._dressed(ground=False), _direct(), exposure, self._size)
 
-    def whole(self, tables: list[TabularBrdf], exposure: Exposure, *, bounces: int) -> Layer:
+    def whole(self, materials: list[Material], exposure: Exposure, *, bounces: int) -> Layer:
         """Objects and ground, with ``bounces`` of light between them."""
-        self._dress(tables)
+        self._dress(materials)
         integrator = {"type": "path", "max_depth": bounces + 1, "hide_emitters": True}
         return _photograph(
             self._dressed(ground=self._scene.ground), integrator, exposure, self._size
@@ -56,8 +55,8 @@ class Stage:
         scene = self._load([black] * self._scene.n_materials, ground=self._scene.ground)
         return _photograph(scene, _direct(), exposure, self._size)
 
-    def _dress(self, tables: list[TabularBrdf]) -> None:
-        if self._wardrobe.change(tables):
+    def _dress(self, materials: list[Material]) -> None:
+        if self._wardrobe.change(materials):
             self._scenes = {}
 
     def _dressed(self, *, ground: bool) -> list[Any]:

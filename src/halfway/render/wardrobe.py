@@ -1,5 +1,7 @@
 """What objects wear: tables as they are, or, without a compiler for them, RGL files that stand for them.
 
+A plugin of Mitsuba's, given as its dict, is worn as it is.
+
 Imported only after `halfway.render.variant.load_mitsuba` has chosen a variant.
 """
 
@@ -13,6 +15,7 @@ import mitsuba as mi
 from ..brdf import TabularBrdf
 from ..formats.rgl_writer import write_rgl
 from ..halfdiff import Grid
+from .scenes import Material
 
 
 class Wardrobe(ABC):
@@ -22,7 +25,7 @@ class Wardrobe(ABC):
         self.bsdfs: list[Any] = []
 
     @abstractmethod
-    def change(self, tables: list[TabularBrdf]) -> bool:
+    def change(self, materials: list[Material]) -> bool:
         """Wear these; whether the BSDFs are other objects than before, so that a scene must be loaded anew."""
 
 
@@ -32,14 +35,21 @@ class Tables(Wardrobe):
     def __init__(self) -> None:
         super().__init__()
         self._grids: list[Grid] = []
+        """Of the tables; empty while a plugin is among the materials."""
 
-    def change(self, tables: list[TabularBrdf]) -> bool:
+    def change(self, materials: list[Material]) -> bool:
         from . import bsdf
         from .sampling import buffer
 
-        grids = [table.grid for table in tables]
-        if grids != self._grids:
-            self.bsdfs = [bsdf.TableBsdf(mi.Properties(), table) for table in tables]
+        tables = [material for material in materials if isinstance(material, TabularBrdf)]
+        grids = [table.grid for table in tables] if len(tables) == len(materials) else []
+        if not grids or grids != self._grids:
+            self.bsdfs = [
+                bsdf.TableBsdf(mi.Properties(), material)
+                if isinstance(material, TabularBrdf)
+                else mi.load_dict(dict(material))
+                for material in materials
+            ]
             self._grids = grids
             return True
         for worn, table in zip(self.bsdfs, tables, strict=True):
@@ -52,13 +62,16 @@ class Tables(Wardrobe):
 class Files(Wardrobe):
     """RGL files for Mitsuba's own ``measured``, which needs no compiler: within some 50 dB of the table."""
 
-    def change(self, tables: list[TabularBrdf]) -> bool:
+    def change(self, materials: list[Material]) -> bool:
         with TemporaryDirectory(prefix="halfway-") as folder:
             self.bsdfs = [
-                self._worn(table, Path(folder) / f"{i}.bsdf") for i, table in enumerate(tables)
+                self._worn(material, Path(folder) / f"{i}.bsdf")
+                for i, material in enumerate(materials)
             ]
         return True
 
-    def _worn(self, table: TabularBrdf, path: Path) -> Any:
-        write_rgl(path, table)
+    def _worn(self, material: Material, path: Path) -> Any:
+        if not isinstance(material, TabularBrdf):
+            return mi.load_dict(dict(material))
+        write_rgl(path, material)
         return mi.load_dict({"type": "measured", "filename": str(path)})

@@ -1,0 +1,58 @@
+"""Fitted models as files; the suffix says which.
+
+.mtlx          MaterialX                      OpenPBR, or glTF's model
+.gltf, .glb    a glTF asset, with a sphere    glTF's model
+.json          parameters and errors          any model
+"""
+
+import json
+from pathlib import Path
+
+from ..errors import OutputError
+from ..files import replacing
+from ..fit import Fit
+from .gltf import to_glb, to_gltf
+from .materialx import to_materialx
+
+MODEL_OF = {".mtlx": "openpbr", ".gltf": "gltf", ".glb": "gltf", ".json": "openpbr"}
+"""The model that a file is made of where nobody says."""
+
+
+def model_of(path: str | Path) -> str:
+    """The model to fit for a file where nobody says which.
+
+    Raises
+    ------
+    OutputError
+        When the suffix names no format of fitted models.
+    """
+    suffix = Path(path).suffix
+    if suffix not in MODEL_OF:
+        raise OutputError(
+            f"{path} has the suffix {suffix!r}, which names no format of fitted models: expected "
+            f"{', '.join(MODEL_OF)}."
+        )
+    return MODEL_OF[suffix]
+
+
+def write_fit(path: str | Path, fit: Fit) -> None:
+    """Write a fit to ``path``, in the format of its suffix.
+
+    Raises
+    ------
+    OutputError
+        When the suffix names no format, the format cannot hold the model, or the file cannot be written.
+    """
+    path = Path(path)
+    model_of(path)
+    match path.suffix:
+        case ".mtlx":
+            data = to_materialx(fit).encode()
+        case ".gltf":
+            data = to_gltf(fit)
+        case ".glb":
+            data = to_glb(fit)
+        case _:
+            data = json.dumps(fit.to_json(), indent=1).encode()
+    with replacing(path) as temporary:
+        temporary.write_bytes(data)

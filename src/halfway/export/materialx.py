@@ -1,0 +1,70 @@
+"""A fitted model as a MaterialX document: one surface node and the material that wears it.
+
+OpenPBR goes to the node ``open_pbr_surface``, glTF's model to ``gltf_pbr``; parameters have the names of the node's inputs.
+Colours are linear with the primaries of sRGB (``lin_rec709``). Every document is validated by the MaterialX library against its
+own node definitions before it is given out.
+
+Source: MaterialX specification 1.39, Academy Software Foundation.
+"""
+
+from functools import cache
+from importlib import import_module
+from typing import Any
+
+from ..errors import OutputError
+from ..fit import Fit
+
+NODES = {"openpbr": "open_pbr_surface", "gltf": "gltf_pbr"}
+"""The node of each model that has one."""
+
+
+def to_materialx(fit: Fit) -> str:
+    """The document, as XML.
+
+    Raises
+    ------
+    OutputError
+        When MaterialX has no node for the model, or finds fault with the document.
+    """
+    if fit.model_name not in NODES:
+        raise OutputError(
+            f"MaterialX has no node for the model {fit.model_name}: expected {' or '.join(NODES)}. "
+            f"Fit one of them with --model."
+        )
+    mx: Any = import_module("MaterialX")
+    document = mx.createDocument()
+    document.setColorSpace("lin_rec709")
+    name = mx.createValidName(fit.name or "material")
+    surface = document.addNode(NODES[fit.model_name], f"{name}_surface", "surfaceshader")
+    for parameter, value in fit.model.parameters().items():
+        colour = isinstance(value, list)
+        surface.setInputValue(
+            parameter, mx.Color3(*value) if colour else value, "color3" if colour else "float"
+        )
+    material = document.addMaterialNode(name, surface)
+    material.setDocString(f"{fit.name}, {fit.summary}")
+    text = mx.writeToXmlString(document)
+    _require_valid(text, fit.name)
+    return text
+
+
+def _require_valid(text: str, name: str) -> None:
+    mx: Any = import_module("MaterialX")
+    document = mx.createDocument()
+    mx.readFromXmlString(document, text)
+    document.setDataLibrary(_definitions())
+    valid, fault = document.validate()
+    if not valid:
+        raise OutputError(
+            f"MaterialX finds fault with the document of {name}: {' '.join(fault.split())}. "
+            "Its version may be too old: 1.39 or later has the nodes."
+        )
+
+
+@cache
+def _definitions() -> Any:
+    """The node definitions that come with MaterialX."""
+    mx: Any = import_module("MaterialX")
+    library = mx.createDocument()
+    mx.loadLibraries(mx.getDefaultDataLibraryFolders(), mx.getDefaultDataSearchPath(), library)
+    return library
