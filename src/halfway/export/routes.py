@@ -27,7 +27,7 @@ from ..formats import write_brdf
 from ..formats.content import merl_bytes
 from ..library import Library
 from ..space import Mixer, Recipe, Route
-from ..tasks import Track, run, silent
+from ..tasks import THREADS, Engine, Track, run, silent
 from . import zarr_tables
 
 FORMATS = ("none", "merl", "bsdf", "zarr")
@@ -52,6 +52,7 @@ def write_route(
     *,
     format: str = "none",
     track: Track = silent,
+    engine: Engine = THREADS,
 ) -> Written:
     """Write recipes.json, and with ``format`` a table for each t.
 
@@ -59,6 +60,8 @@ def write_route(
     ----------
     format : str
         ``none``; ``merl`` or ``bsdf``, a file for each table; ``zarr``, all in one store.
+    engine : Engine
+        Where tables are mixed and written; workers in other processes need to see ``folder`` under the same path.
 
     Raises
     ------
@@ -89,7 +92,7 @@ def write_route(
             if name in missing
         ]
         write = partial(_write_table, Mixer(library), tables.write)
-        written = run(write, tasks, label="Tables", track=track)
+        written = run(write, tasks, label="Tables", track=track, engine=engine)
         for (path, _), checksum in zip(tasks, written, strict=True):
             batch.add(path.relative_to(folder).as_posix(), checksum)
     return Written(len(tasks), len(tables.names) - len(tasks))

@@ -33,6 +33,7 @@ SCALES = np.array([1.0, 1.15, 1.66]) / 1500
 UNMEASURED = -1.0
 """The sample that we write where nothing was measured."""
 
+_BLOCK = 1 << 16  # samples encoded at once: half a megabyte stays in a cache
 _CHUNK = 1 << 24  # bytes read at once: a zip's stream makes a copy of each
 
 
@@ -84,9 +85,9 @@ class MerlFile:
         """
         require_merl_shaped(table.grid, table.name)
         _require_storable(table)
-        samples = table.values.astype(np.float64)
-        samples /= SCALES[:, None, None, None]
-        samples[np.isnan(samples)] = UNMEASURED
+        samples = np.empty(table.values.shape, np.float64)
+        for values, scale, encoded in zip(table.values, SCALES, samples, strict=True):
+            _encode(values, scale, encoded)
         return cls(table.grid, samples)
 
     def to_table(self, name: str = "") -> TabularBrdf:
@@ -126,7 +127,23 @@ def read_merl_source(source: Source) -> TabularBrdf:
 
 def write_merl(path: str | Path, table: TabularBrdf) -> None:
     """Write a table as a MERL file; raises as `MerlFile.from_table` and `MerlFile.write` do."""
-    MerlFile.from_table(table).write(path)
+    require_merl_shaped(table.grid, table.name)
+    _require_storable(table)
+    header = encode_header(table.grid)
+    encoded = np.empty(_BLOCK, "<f8")
+    with replacing(Path(path)) as temporary, temporary.open("wb") as file:
+        file.write(header)
+        for channel, scale in zip(table.values.reshape(3, -1), SCALES, strict=True):
+            for start in range(0, len(channel), _BLOCK):
+                values = channel[start : start + _BLOCK]
+                _encode(values, scale, encoded[: len(values)])
+                file.write(encoded[: len(values)].data)
+
+
+def _encode(values: np.ndarray, scale: float, samples: np.ndarray) -> None:
+    """Values of one channel as samples of a file. None is negative, so the maximum with -1 changes the NaN alone."""
+    np.divide(values, scale, out=samples, dtype=np.float64)
+    np.fmax(samples, UNMEASURED, out=samples)
 
 
 def encode_header(grid: Grid) -> bytes:

@@ -1,6 +1,7 @@
 """The inner loop of mixing, compiled.
 
-Fused, four rows a pass: at most of the memory's bandwidth, where numpy's multiply and add pass over everything twice.
+Fused: one pass over all rows, summed in float64, at most of the memory's bandwidth, where numpy's multiply and add pass over
+everything twice.
 """
 
 import numba
@@ -8,19 +9,30 @@ import numpy as np
 
 
 @numba.njit(nogil=True, cache=True)
-def add_four(
-    total: np.ndarray,
+def sum_four(
+    out: np.ndarray, a: np.ndarray, b: np.ndarray, c: np.ndarray, d: np.ndarray, w: np.ndarray
+) -> None:
+    """``out = w . (a, b, c, d)``."""
+    w0, w1, w2, w3 = w[0], w[1], w[2], w[3]
+    for i in range(len(out)):
+        out[i] = w0 * a[i] + w1 * b[i] + w2 * c[i] + w3 * d[i]
+
+
+@numba.njit(nogil=True, cache=True)
+def sum_eight(
+    out: np.ndarray,
     a: np.ndarray,
     b: np.ndarray,
     c: np.ndarray,
     d: np.ndarray,
+    e: np.ndarray,
+    f: np.ndarray,
+    g: np.ndarray,
+    h: np.ndarray,
     w: np.ndarray,
-    keep: bool,
 ) -> None:
-    """``total = [total +] w . (a, b, c, d)`` in one pass; ``keep`` says whether the old total counts."""
-    if keep:
-        for i in range(len(total)):
-            total[i] += w[0] * a[i] + w[1] * b[i] + w[2] * c[i] + w[3] * d[i]
-    else:
-        for i in range(len(total)):
-            total[i] = w[0] * a[i] + w[1] * b[i] + w[2] * c[i] + w[3] * d[i]
+    """``out = w . (a, b, c, d, e, f, g, h)``."""
+    w0, w1, w2, w3, w4, w5, w6, w7 = w[0], w[1], w[2], w[3], w[4], w[5], w[6], w[7]
+    for i in range(len(out)):
+        low = w0 * a[i] + w1 * b[i] + w2 * c[i] + w3 * d[i]
+        out[i] = low + (w4 * e[i] + w5 * f[i] + w6 * g[i] + w7 * h[i])

@@ -19,9 +19,6 @@ from ..errors import LibraryError, RecipeError
 from ..library import Library
 from .recipe import Recipe
 
-ROWS_AT_ONCE = 4
-"""Rows that one pass of the kernel reads: the vertices of a simplex of the paper's three scores."""
-
 
 class Mixer:
     """Mixes recipes of one library, keeping the rows it used last (`n_rows` of 17.5 MB each on the MERL grid)."""
@@ -79,14 +76,20 @@ def _title(recipe: Recipe) -> str:
 
 
 def _weighted_sum(out: np.ndarray, rows: list[np.ndarray], weights: np.ndarray) -> None:
-    from .kernel import add_four  # numba takes a second to load
+    from .kernel import sum_eight, sum_four  # numba takes a second to load
 
-    total = np.empty(len(out))
-    for first in range(0, len(rows), ROWS_AT_ONCE):
-        some = rows[first : first + ROWS_AT_ONCE]
-        n_spare = ROWS_AT_ONCE - len(some)
-        # The last row again, at weight 0: NaN stays NaN and everything else stays itself.
-        a, b, c, d = some + some[-1:] * n_spare
-        w = np.append(weights[first : first + ROWS_AT_ONCE], [0.0] * n_spare)
-        add_four(total, a, b, c, d, w, first > 0)
-    out[:] = total
+    if len(rows) > 8:
+        half = len(rows) // 2
+        low, high = np.empty((2, len(out)))
+        _weighted_sum(low, rows[:half], weights[:half])
+        _weighted_sum(high, rows[half:], weights[half:])
+        np.add(low, high, out=out, casting="same_kind")
+        return
+    n = 4 if len(rows) <= 4 else 8
+    # The last row again, at weight 0: NaN stays NaN and everything else stays itself.
+    padded = rows + rows[-1:] * (n - len(rows))
+    arguments = [out, *padded, np.append(weights, np.zeros(n - len(rows)))]
+    if n == 4:
+        sum_four(*arguments)
+    else:
+        sum_eight(*arguments)
