@@ -10,6 +10,7 @@ from .pca import Pca
 from .plan import PcaPlan
 from .procedural import ProceduralLibrary
 from .stored import StoredLibrary
+from .subset import Subset, most_different
 
 __all__ = [
     "DEFAULT_LIBRARY",
@@ -25,7 +26,9 @@ __all__ = [
     "ProceduralLibrary",
     "SphereOperator",
     "StoredLibrary",
+    "Subset",
     "build_library",
     "library_called",
+    "most_different",
     "open_library",
 ]

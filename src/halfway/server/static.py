@@ -26,7 +26,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..errors import DegenerateSpaceWarning, OutputError
-from ..files import replacing_folder, require_space
+from ..files import replacing_folder
 from ..library import BasisImages, Library
 from ..space import SPACES, AnchoredSpace, PaperSpace, Route, Space, Triangulation, lengths
 from ..tasks import Track, run, silent
@@ -64,13 +64,12 @@ def export(
     OutputError
         When the folder holds anything else or cannot be written, or the library is too large for files.
     """
-    _require_own(folder)
+    require_own(folder)
     if len(library) > N_LARGEST:
         raise OutputError(
             f"{library.name} has {len(library)} materials: a folder takes at most {N_LARGEST}. "
             "Name some with --materials, or choose with -n."
         )
-    require_space(folder, 8 * library.grid.size * len(library), f"the explorer in {folder}")
     explorer = Explorer(library, cache=cache, track=track)
     with replacing_folder(folder) as temporary:
         files = _Files(temporary)
@@ -81,7 +80,14 @@ def export(
         return Exported(files.n_files, files.n_bytes)
 
 
-def _require_own(folder: Path) -> None:
+def require_own(folder: Path) -> None:
+    """Refuse a folder with files that `export` did not write.
+
+    Raises
+    ------
+    OutputError
+        When there are any.
+    """
     if folder.is_dir() and any(folder.iterdir()) and not (folder / MARK).is_file():
         raise OutputError(
             f"{folder} holds files that are no explorer's: expected an empty folder, or an earlier export. "
