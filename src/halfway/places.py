@@ -10,8 +10,9 @@ from collections.abc import Generator, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from fnmatch import fnmatch
+from io import BufferedReader
 from pathlib import Path, PurePosixPath
-from typing import Any, BinaryIO, NamedTuple
+from typing import Any, NamedTuple
 
 from .errors import MissingExtraError, RemoteError
 
@@ -64,9 +65,6 @@ class RemotePath:
     def with_suffix(self, suffix: str) -> "RemotePath":
         return self.parent / PurePosixPath(self.name).with_suffix(suffix).name
 
-    def relative_to(self, folder: "RemotePath") -> PurePosixPath:
-        return PurePosixPath(self.url).relative_to(PurePosixPath(folder.url))
-
     def exists(self) -> bool:
         with self._asking() as (fs, path):
             return bool(fs.exists(path))
@@ -107,7 +105,7 @@ class RemotePath:
         return self.read_bytes().decode()
 
     @contextmanager
-    def open(self, mode: str = "rb") -> Generator[BinaryIO]:
+    def open(self, mode: str = "rb") -> Generator[BufferedReader]:
         """The file as a stream, to read."""
         with self._asking() as (fs, path), fs.open(path, mode) as stream:
             yield stream
@@ -158,6 +156,13 @@ def to_place(where: "str | Place") -> Place:
 def absolute(place: Place) -> Place:
     """The place by a name that means the same in every folder."""
     return place.absolute() if isinstance(place, Path) else place
+
+
+def name_in(folder: Place, place: Place) -> str:
+    """What a file is called in a folder that holds it, with ``/`` between."""
+    if isinstance(folder, Path) and isinstance(place, Path):
+        return place.relative_to(folder).as_posix()
+    return str(place).removeprefix(f"{folder}/")
 
 
 def read_into(place: Place, starts: Sequence[int], buffers: Sequence[memoryview]) -> None:

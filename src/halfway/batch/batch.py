@@ -12,11 +12,11 @@ name is whole and right at any time. What no manifest names is somebody else's: 
 import os
 from collections.abc import Container, Generator, Iterable, Mapping
 from contextlib import contextmanager, suppress
-from pathlib import Path
 from typing import Any
 
 from ..errors import OutputError
 from ..files import explaining, require_space, sweep
+from ..places import Place, RemotePath, append_text
 from ..tasks import Track, silent
 from .manifest import JOURNAL, Checksum, Entry, Manifest, journal_line, right_files
 
@@ -24,7 +24,7 @@ from .manifest import JOURNAL, Checksum, Entry, Manifest, journal_line, right_fi
 class Batch:
     """The files of a folder, finished or still to be made; open one with `Batch.open`."""
 
-    def __init__(self, folder: Path, outputs: Mapping[str, Any], finished: Container[str]) -> None:
+    def __init__(self, folder: Place, outputs: Mapping[str, Any], finished: Container[str]) -> None:
         self._folder = folder
         self._outputs = outputs
         self.missing = [name for name in outputs if name not in finished]
@@ -36,7 +36,7 @@ class Batch:
     @contextmanager
     def open(
         cls,
-        folder: Path,
+        folder: Place,
         outputs: Mapping[str, Any],
         *,
         made: Mapping[str, Any],
@@ -75,29 +75,33 @@ class Batch:
         """Note that a file is finished."""
         line = journal_line(name, Entry(self._outputs[name], checksum))
         path = self._folder / JOURNAL
-        with explaining(path), path.open("a") as journal:
-            journal.write(line)
+        with explaining(path):
+            append_text(path, line)
 
 
 @contextmanager
-def _folder(folder: Path) -> Generator[None]:
+def _folder(folder: Place) -> Generator[None]:
     """Make the folder; remove it again when nothing came of it."""
     with explaining(folder):
         folder.mkdir(parents=True, exist_ok=True)
     try:
         yield
     except BaseException:
-        with suppress(OSError):
-            folder.rmdir()  # only an empty one goes
+        if not isinstance(folder, RemotePath):
+            with suppress(OSError):
+                folder.rmdir()  # only an empty one goes
         raise
 
 
 @contextmanager
-def _alone(folder: Path) -> Generator[None]:
+def _alone(folder: Place) -> Generator[None]:
     """Hold the folder's lock, which ends with the process however it ends; without one where the system has none."""
     try:
         import fcntl
     except ImportError:
+        yield
+        return
+    if isinstance(folder, RemotePath):
         yield
         return
     handle = os.open(folder, os.O_RDONLY)
@@ -117,7 +121,7 @@ def _alone(folder: Path) -> Generator[None]:
 
 
 def _prepare(
-    folder: Path, outputs: Mapping[str, Any], made: Mapping[str, Any], n_bytes: int, track: Track
+    folder: Place, outputs: Mapping[str, Any], made: Mapping[str, Any], n_bytes: int, track: Track
 ) -> Manifest:
     """Leave what is right, remove what is not, and write the journal's first lines."""
     old = Manifest.read(folder) or Manifest(made)
@@ -142,7 +146,7 @@ def _prepare(
 
 
 def _refuse_others(
-    folder: Path, old: Manifest, outputs: Iterable[str], made: Mapping[str, Any]
+    folder: Place, old: Manifest, outputs: Iterable[str], made: Mapping[str, Any]
 ) -> None:
     if old.made["by"] != made["by"]:
         raise OutputError(

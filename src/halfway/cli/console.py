@@ -3,11 +3,15 @@
 import sys
 import time
 import warnings
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Generator, Iterable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
-from typing import TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 from ..errors import HalfwayError
+
+if TYPE_CHECKING:
+    from ..tasks import Engine
 
 T = TypeVar("T")
 
@@ -57,6 +61,24 @@ def _bar(items: Iterable[T], label: str, total: int) -> Iterator[T]:
 
 def _rate(per_second: float) -> str:
     return f"{per_second:.1f}/s" if per_second >= 1 else f"{1 / per_second:.1f} s each"
+
+
+@contextmanager
+def engine(scheduler: str) -> "Generator[Engine]":
+    """Where tasks run: on the cluster with this address, or here where it is empty."""
+    from ..tasks import THREADS
+
+    if not scheduler:
+        yield THREADS
+        return
+    import logging
+
+    from ..cluster import Cluster
+
+    # What goes wrong is told in one line, once.
+    logging.getLogger("distributed").setLevel(logging.CRITICAL)
+    with Cluster.at(scheduler) as cluster:
+        yield cluster
 
 
 def run(app: Callable[[], None]) -> None:

@@ -1,12 +1,12 @@
 """``halfway library``: build and look at libraries."""
 
 import json
-from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from .console import say, track
+from .console import engine, say, track
+from .options import Scheduler
 
 app = typer.Typer(help="Build a library of materials, or see what is in one.", no_args_is_help=True)
 
@@ -17,23 +17,27 @@ def build(
         list[str], typer.Argument(metavar="SOURCE...", help="Files, folders, zips, builtin:NAME.")
     ],
     output: Annotated[
-        Path, typer.Option("--output", "-o", metavar="LIB", help="The folder to write.")
+        str, typer.Option("--output", "-o", metavar="LIB", help="The folder to write, or its URL.")
     ],
     licence: Annotated[
         str, typer.Option(help="Licence of the measurements, kept in the library.")
     ] = "",
     source: Annotated[str, typer.Option(help="Where they come from, kept in the library.")] = "",
+    scheduler: Scheduler = "",
 ) -> None:
     """Tabulate every BRDF found in SOURCE into the library LIB.
 
     \b
     halfway library build ~/BRDFDatabase/brdfs -o merl.brdflib
     halfway library build merl_nbrdf.zip -o neural.brdflib
+    halfway library build ~/BRDFDatabase/brdfs -o s3://bucket/merl.brdflib
     """
     from halfway.library import Origin, build_library
+    from halfway.places import to_place
 
     origin = Origin("built from files", source, licence) if licence or source else None
-    built = build_library(sources, output, origin=origin, track=track)
+    with engine(scheduler) as where:
+        built = build_library(sources, to_place(output), origin=origin, track=track, engine=where)
     for item in built.skipped:
         say(f"skipped {item.path}: {item.reason}")
     say(

@@ -6,6 +6,13 @@ from typing import Annotated
 
 import typer
 
+Scheduler = Annotated[
+    str,
+    typer.Option(
+        metavar="ADDRESS",
+        help="Of a Dask cluster that does the work, such as tcp://host:8786. [default: threads here]",
+    ),
+]
 AsJson = Annotated[bool, typer.Option("--json", help="For programs.")]
 
 
@@ -71,7 +78,13 @@ Components = Annotated[
     int, typer.Option("-k", help="Scores that span the space; the paper's takes 1 to 6.")
 ]
 RouteFolder = Annotated[
-    Path | None, typer.Option("--output", "-o", metavar="DIR", help="[default: A-to-B]")
+    str | None,
+    typer.Option(
+        "--output",
+        "-o",
+        metavar="DIR",
+        help="A folder, or a URL such as s3://.... [default: A-to-B]",
+    ),
 ]
 Tables = Annotated[
     TableFormat,

@@ -1,19 +1,19 @@
 """``halfway report``: the paper's table and figures, for any library."""
 
 import json
-from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 
-from .console import cache_folder, say, track
+from .console import cache_folder, engine, say, track
+from .options import Scheduler
 
 
 def report(
     lib: Annotated[str, typer.Argument(metavar="[LIB]")] = "builtin:merl-abc",
     output: Annotated[
-        Path, typer.Option("--output", "-o", metavar="DIR", help="The folder to write.")
-    ] = Path("report"),
+        str, typer.Option("--output", "-o", metavar="DIR", help="The folder to write, or its URL.")
+    ] = "report",
     pairs: Annotated[
         int,
         typer.Option(
@@ -25,6 +25,7 @@ def report(
     dry_run: Annotated[
         bool, typer.Option("--dry-run", help="Say what it takes: blocks, memory, time; and stop.")
     ] = False,
+    scheduler: Scheduler = "",
 ) -> None:
     """Principal components of a library: Table I, eigenvalues, triangulation; and how well spaces move in it.
 
@@ -35,19 +36,22 @@ def report(
     """
     from halfway.export import compare_spaces, write_report
     from halfway.library import Pca, PcaPlan, open_library
+    from halfway.places import to_place
 
     library = open_library(lib)
     if dry_run:
         print("\n".join(PcaPlan.of(library).timed(library).lines()))
         return
-    pca = Pca.fit(library, cache=cache_folder(), track=track)
-    n_pairs = None if pairs < 0 else pairs
-    compared = (
-        compare_spaces(library, pca, n_pairs=n_pairs, seed=seed, cache=cache_folder(), track=track)
-        if pairs
-        else []
-    )
-    found = write_report(output, library, pca, spaces=compared)
+    compared: list[dict[str, Any]] = []
+    with engine(scheduler) as where:
+        cache = cache_folder()
+        pca = Pca.fit(library, cache=cache, track=track, engine=where)
+        if pairs:
+            n_pairs = None if pairs < 0 else pairs
+            compared = compare_spaces(
+                library, pca, n_pairs=n_pairs, seed=seed, cache=cache, track=track, engine=where
+            )
+    found = write_report(to_place(output), library, pca, spaces=compared)
     if as_json:
         print(json.dumps(found.to_json(), indent=1))
     else:

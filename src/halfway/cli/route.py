@@ -1,10 +1,9 @@
 """``halfway route``: recipes, and tables, on the way from one material to another."""
 
 import json
-from pathlib import Path
 
 from . import options
-from .console import cache_folder, say, track
+from .console import cache_folder, engine, say, track
 from .options import Pace, SpaceName, TableFormat
 
 
@@ -19,6 +18,7 @@ def route(
     output: options.RouteFolder = None,
     format: options.Tables = TableFormat.none,
     as_json: options.RouteJson = False,
+    scheduler: options.Scheduler = "",
 ) -> None:
     """Go from one material to another, and on.
 
@@ -32,6 +32,7 @@ def route(
     """
     from halfway.export import write_route
     from halfway.library import BasisImages, open_library
+    from halfway.places import to_place
     from halfway.space import Route, make_space, perceptual
 
     from .arguments import parse_t, split_library
@@ -40,19 +41,28 @@ def route(
     library = open_library(where)
     for stop in stops:
         library.index(stop)
-    made = make_space(
-        space, library, n_components=components, detour=detour, cache=cache_folder(), track=track
-    )
-    found = Route.through(made, stops)
-    if pace is Pace.perceptual:
-        found = perceptual(found, BasisImages.fit(library, cache=cache_folder(), track=track))
-    ts = parse_t(t) if t else found.steps(n)
-    if as_json:
-        print(json.dumps(found.to_json(ts)))
-    if output is None and as_json:
-        return
-    folder = output or Path("-to-".join(stops))
-    written = write_route(folder, found, ts, library, format=format, track=track)
+    with engine(scheduler) as where:
+        made = make_space(
+            space,
+            library,
+            n_components=components,
+            detour=detour,
+            cache=cache_folder(),
+            track=track,
+            engine=where,
+        )
+        found = Route.through(made, stops)
+        if pace is Pace.perceptual:
+            found = perceptual(
+                found, BasisImages.fit(library, cache=cache_folder(), track=track, engine=where)
+            )
+        ts = parse_t(t) if t else found.steps(n)
+        if as_json:
+            print(json.dumps(found.to_json(ts)))
+        if output is None and as_json:
+            return
+        folder = to_place(output or "-to-".join(stops))
+        written = write_route(folder, found, ts, library, format=format, track=track, engine=where)
     tables = f", {written.n_written} tables written" if format != "none" else ""
     kept = f", {written.n_kept} kept" if written.n_kept else ""
     say(f"{folder}: {len(ts)} recipes{tables}{kept}. Next: halfway render {folder} -o route.png")

@@ -2,13 +2,13 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from functools import wraps
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ..files import replacing
 from ..library import Pca
+from ..places import Place
 from ..space import Triangulation
 
 if TYPE_CHECKING:
@@ -118,7 +118,7 @@ def spaces(measured: Sequence[Mapping[str, Any]], label: str) -> "Figure":
         return figure
 
 
-def write(stem: Path, figure: "Figure") -> None:
+def write(stem: Place, figure: "Figure") -> None:
     """Write a figure as ``stem.png`` and ``stem.svg``."""
     for suffix in (".png", ".svg"):
         with replacing(stem.with_suffix(suffix)) as temporary:

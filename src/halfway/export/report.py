@@ -14,6 +14,7 @@ import numpy as np
 
 from ..files import replacing
 from ..library import Library, Pca
+from ..places import Place
 from ..space import (
     SPACES,
     AnchoredPlace,
@@ -120,7 +121,7 @@ def compare_spaces(
 
 
 def write_report(
-    folder: Path, library: Library, pca: Pca, *, spaces: Sequence[Mapping[str, Any]] = ()
+    folder: Place, library: Library, pca: Pca, *, spaces: Sequence[Mapping[str, Any]] = ()
 ) -> Report:
     """Write report.json and the figures into ``folder``; ``spaces`` are those of `compare_spaces`."""
     report = replace(Report.of(library, pca), spaces=tuple(spaces))

@@ -26,6 +26,7 @@ from ..files import replacing
 from ..formats import write_brdf
 from ..formats.content import merl_bytes
 from ..library import Library
+from ..places import Place, absolute, name_in
 from ..space import Mixer, Recipe, Route
 from ..tasks import THREADS, Engine, Track, run, silent
 from . import zarr_tables
@@ -45,7 +46,7 @@ class Written(NamedTuple):
 
 
 def write_route(
-    folder: Path,
+    folder: Place,
     route: Route,
     ts: Sequence[float],
     library: Library,
@@ -60,14 +61,13 @@ def write_route(
     ----------
     format : str
         ``none``; ``merl`` or ``bsdf``, a file for each table; ``zarr``, all in one store.
-    engine : Engine
-        Where tables are mixed and written; workers in other processes need to see ``folder`` under the same path.
 
     Raises
     ------
     OutputError
         When the folder cannot be written or has no room, another run works in it, or a file in it is in the way.
     """
+    folder = absolute(folder)  # workers may be elsewhere
     document = {**route.to_json(ts), "library_checksum": library.checksum}
     text = json.dumps(document)
     recipes = route.recipes(ts)
@@ -94,7 +94,7 @@ def write_route(
         write = partial(_write_table, Mixer(library), tables.write)
         written = run(write, tasks, label="Tables", track=track, engine=engine)
         for (path, _), checksum in zip(tasks, written, strict=True):
-            batch.add(path.relative_to(folder).as_posix(), checksum)
+            batch.add(name_in(folder, path), checksum)
     return Written(len(tasks), len(tables.names) - len(tasks))
 
 
@@ -144,15 +144,16 @@ def _largest(recipes: Sequence[Recipe], library: Library) -> float:
     return max(float(np.nanmax(library.row(library.index(name)))) for name in names)
 
 
-def _write_text(path: Path, text: str) -> Checksum:
+def _write_text(path: Place, text: str) -> Checksum:
     with replacing(path) as temporary:
         temporary.write_text(text)
-    return Checksum.of(path)
+        return Checksum.of(temporary)
 
 
 def _write_table(
-    mixer: Mixer, write: Callable[[Path, TabularBrdf], None], task: tuple[Path, Recipe]
+    mixer: Mixer, write: Callable[[Path, TabularBrdf], None], task: tuple[Place, Recipe]
 ) -> Checksum:
     path, recipe = task
-    write(path, mixer.mix(recipe))
-    return Checksum.of(path)
+    with replacing(path) as temporary:
+        write(temporary, mixer.mix(recipe))
+        return Checksum.of(temporary)

@@ -1,7 +1,7 @@
 """From what a person writes to a library.
 
 builtin:merl-abc        published fits that come with the package
-folder.brdflib          a stored library
+folder.brdflib          a stored library, here or at a URL such as s3://bucket/folder.brdflib
 merl_nbrdf.zip          an archive of neural fits, decoded when asked for
 """
 
@@ -11,6 +11,7 @@ from pathlib import Path
 from ..errors import LibraryError
 from ..formats import read_nbrdf_archive
 from ..models import BUILTIN, builtin
+from ..places import Place, RemotePath, to_place
 from .library import Library, Origin, in_use
 from .procedural import ProceduralLibrary
 from .stored import StoredLibrary
@@ -19,8 +20,8 @@ BUILTIN_PREFIX = "builtin:"
 DEFAULT_LIBRARY = "builtin:merl-abc"
 
 
-def open_library(where: str | Path) -> Library:
-    """The library called ``where``: ``builtin:NAME``, a library folder, or an archive of neural fits.
+def open_library(where: str | Place) -> Library:
+    """The library called ``where``: ``builtin:NAME``, a library folder (or its URL), or an archive of neural fits.
 
     Raises
     ------
@@ -31,8 +32,8 @@ def open_library(where: str | Path) -> Library:
         models = builtin(str(where).removeprefix(BUILTIN_PREFIX))
         origin = Origin(models.description, models.source, models.licence)
         return ProceduralLibrary(str(where), models.models, origin=origin)
-    path = Path(where)
-    if path.is_dir():
+    path = to_place(where)
+    if isinstance(path, RemotePath) or path.is_dir():
         return StoredLibrary(path)
     if zipfile.is_zipfile(path):
         return _open_archive(path)
