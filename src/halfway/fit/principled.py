@@ -53,7 +53,7 @@ class Principled(AnalyticModel):
         "base_color": Range(0, 1, 0.5),
         "roughness": Range(0.02, 1, 0.5),
         "metallic": Range(0, 1, 0),
-        "specular": Range(0, 1, 0.5),
+        "specular": Range(0.01, 1, 0.5),
         "spec_tint": Range(0, 1, 0),
         "clearcoat": Range(0, 1, 0),
         "clearcoat_gloss": Range(0, 1, 0),
@@ -85,6 +85,8 @@ class Principled(AnalyticModel):
         coat = gtr1(theta_h, 0.1 - 0.099 * self.clearcoat_gloss) * smith(cos_i, 0.25)
         coat = self.clearcoat / 4 * (0.04 + 0.96 * white) * coat * smith(cos_o, 0.25)
         sheen = self.sheen * (1 + self.sheen_tint * (tint - 1)) * white
+        # Without an index Mitsuba leaves the whole lobe out, the metal's too; fits stay clear of that.
+        lobe = lobe * (self.specular > 0)
         f = self._fresnel(cos_d, white, colour, tint)
         return f * lobe + coat + (1 - self.metallic) * (colour * body + sheen)
 
