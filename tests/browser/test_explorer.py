@@ -27,9 +27,9 @@ def test_moving_t_changes_the_recipe_and_not_the_samples(explorer: Explorer) -> 
     explorer.set_t(0.25)
     assert explorer.page.locator(".recipe .share").all_text_contents() == ["75 %", "25 %"]
     explorer.page.wait_for_function("() => document.querySelector('.t b').textContent === '0.250'")
-    explorer.wait_for_picture(16)
+    explorer.wait_for_picture(128)
     # No sample is drawn again: only the weights of the sum are others.
-    assert explorer.page.locator(".material .note").inner_text() == "16 / 16 samples"
+    assert explorer.page.locator(".material .note").inner_text() == "128 / 128 samples"
     assert picture(explorer) != before
 
 
@@ -172,7 +172,7 @@ def test_an_environment_is_chosen(explorer: Explorer) -> None:
     explorer.wait_for_picture(16)
     explorer.page.locator("[name=light]").select_option("forest")
     explorer.page.wait_for_function(
-        "() => document.querySelector('.material .note').innerText.endsWith('/ 192 samples')"
+        "() => document.querySelector('.material .note').innerText.endsWith('/ 384 samples')"
     )
     explorer.wait_for_picture(2)
 

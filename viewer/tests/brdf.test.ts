@@ -2,10 +2,10 @@ import { expect, test } from "vitest";
 
 import type { Axis } from "../src/api/schema";
 import { directionalAlbedo } from "../src/brdf/albedo";
-import { alias } from "../src/brdf/alias";
 import { neighbours, toAngle, toPosition } from "../src/brdf/grid";
 import { HALF } from "../src/brdf/half";
 import { type Direction, toHalfDiff } from "../src/brdf/halfdiff";
+import { inversion } from "../src/brdf/inversion";
 import { lobe } from "../src/brdf/lobe";
 import { evaluate, sample, type Table } from "../src/brdf/table";
 import { golden } from "./golden";
@@ -83,16 +83,23 @@ test("half floats have their values", () => {
   ]);
 });
 
-test("the alias table gives every cell its chance", () => {
+test("inverting the running sum gives every cell its chance, in order", () => {
   const mass = [0.1, 0.5, 0, 3, 0.4];
-  const { keep, other } = alias(mass);
-  const chance = new Float64Array(mass.length);
-  keep.forEach((p, i) => {
-    chance[i]! += p / mass.length;
-    chance[other[i]!]! += (1 - p) / mass.length;
-  });
+  const { upTo, first, chance } = inversion(mass);
+  const n = 4000;
+  const found = new Float64Array(mass.length);
+  let last = 0;
+  for (let k = 0; k < n; k++) {
+    const u = (k + 0.5) / n;
+    let cell = first[Math.floor(u * mass.length)]!;
+    while (upTo[cell]! <= u) cell++;
+    expect(cell).toBeGreaterThanOrEqual(last);
+    last = cell;
+    found[cell]! += 1 / n;
+  }
   mass.forEach((m, i) => {
     expect(chance[i]).toBeCloseTo(m / 4, 6);
+    expect(Math.abs(found[i]! - m / 4)).toBeLessThanOrEqual(1.01 / n);
   });
 });
 

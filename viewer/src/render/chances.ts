@@ -1,14 +1,21 @@
-// A table of chances on the card: red the probability to keep a cell, green its alias, blue the density.
+// Tables of chances on the card, one a row: red the chance of a cell and all before it, green where to begin to look, blue
+// the density, alpha the chance (inversion.glsl).
 
 import { DataTexture, FloatType, NearestFilter, RGBAFormat } from "three";
 
-import { alias } from "../brdf/alias";
+import { inversion } from "../brdf/inversion";
 
-export function chances(mass: ArrayLike<number>, density: ArrayLike<number>, width: number): DataTexture {
-  const { keep, other } = alias(mass);
-  const texels = new Float32Array(4 * keep.length);
-  for (let i = 0; i < keep.length; i++) texels.set([keep[i]!, other[i]!, density[i]!, 0], 4 * i);
-  const texture = new DataTexture(texels, width, keep.length / width, RGBAFormat, FloatType);
+export function chances(mass: Float64Array, density: ArrayLike<number>, width: number): DataTexture {
+  const height = mass.length / width;
+  const texels = new Float32Array(4 * mass.length);
+  for (let row = 0; row < height; row++) {
+    const { chance, upTo, first } = inversion(mass.subarray(row * width, (row + 1) * width));
+    for (let i = 0; i < width; i++) {
+      const at = row * width + i;
+      texels.set([upTo[i]!, first[i]!, density[at]!, chance[i]!], 4 * at);
+    }
+  }
+  const texture = new DataTexture(texels, width, height, RGBAFormat, FloatType);
   texture.minFilter = texture.magFilter = NearestFilter;
   texture.needsUpdate = true;
   return texture;

@@ -8,6 +8,8 @@ import { chances } from "./chances";
 
 export interface Environment {
   readonly picture: DataTexture;
+  /** Of the rows of a coarse table, and of the cells of each. */
+  readonly rows: DataTexture;
   readonly chances: DataTexture;
 }
 
@@ -26,7 +28,10 @@ export function toEnvironment({ halfs, shape }: Block): Environment {
   const mass = light(halfs, width, height);
   // Per solid angle, times the sine of the polar angle: a cell spans 2 pi^2 / n in the two angles.
   const density = mass.map((m) => (m * rows * columns) / (2 * Math.PI ** 2));
-  return { picture, chances: chances(mass, density, columns) };
+  const whole = Float64Array.from({ length: rows }, (_, row) =>
+    mass.subarray(row * columns, (row + 1) * columns).reduce((a, b) => a + b, 0),
+  );
+  return { picture, rows: chances(whole, whole, rows), chances: chances(mass, density, columns) };
 }
 
 /** The share of all light that comes from each cell. */

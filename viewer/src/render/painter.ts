@@ -27,7 +27,7 @@ import { type Orbit, type Shape, Stage } from "./stage";
 import type { TableOnCard, Tables } from "./tables";
 
 /** Under an environment, and under points. */
-const TARGET_SAMPLES = [192, 16] as const;
+const TARGET_SAMPLES = [384, 128] as const;
 const LAYER_BYTES = 400e6;
 const MIN_LAYERS = 24;
 
@@ -98,6 +98,7 @@ export class Painter {
       {
         ...shared(),
         uEnv: { value: null },
+        uEnvRows: { value: null },
         uEnvChances: { value: null },
         uLobe: { value: null },
         uFirst: { value: 0 },
@@ -154,6 +155,7 @@ export class Painter {
     this.underPoints = environment === null;
     if (environment !== null) {
       this.environment.uniforms.uEnv!.value = environment.picture;
+      this.environment.uniforms.uEnvRows!.value = environment.rows;
       this.environment.uniforms.uEnvChances!.value = environment.chances;
     }
     this.buffered = -1;
@@ -270,8 +272,8 @@ export class Painter {
   }
 }
 
-/** 2^32 / g and 2^32 / g^2 with g^3 = g + 1. */
-const JITTER = [0xc13fa9a9, 0x91e10da5] as const;
+/** 2^32 times the fractions of the square roots of 2 and 3: independent of the steps that the shaders take (STEPS). */
+const JITTER = [0x6a09e667, 0xbb67ae85] as const;
 
 /** The i-th point of a two-dimensional additive recurrence, shifted to start in the middle. */
 function jitter(i: number, dimension: 0 | 1): number {

@@ -18,6 +18,7 @@ import brdf from "./glsl/brdf.glsl?raw";
 import composite from "./glsl/composite.frag.glsl?raw";
 import environment from "./glsl/environment.glsl?raw";
 import halfdiff from "./glsl/halfdiff.glsl?raw";
+import inversion from "./glsl/inversion.glsl?raw";
 import lobe from "./glsl/lobe.glsl?raw";
 import meshFragment from "./glsl/mesh.frag.glsl?raw";
 import meshVertex from "./glsl/mesh.vert.glsl?raw";
@@ -27,8 +28,8 @@ import shade from "./glsl/shade.frag.glsl?raw";
 import sphere from "./glsl/sphere.frag.glsl?raw";
 
 export const MAX_TERMS = 32;
-/** 2^32 / g^j with g^5 = g + 1, made odd. */
-const STEPS = [0xdb4f0b91, 0xbbe05633, 0xa0f2ec75, 0x89e18285] as const;
+/** 2^32 / g and 2^32 / g^2 with g^3 = g + 1, for the light, and again for the half vector. */
+const STEPS = [0xc13fa9a9, 0x91e10da5, 0xc13fa9a9, 0x91e10da5] as const;
 
 export type Uniforms = Record<string, IUniform>;
 
@@ -40,6 +41,7 @@ export const environmentShader =
   halfdiff +
   brdf +
   random.replace("@STEPS@", STEPS.map((step) => `${step}u`).join(", ")) +
+  inversion +
   environment +
   lobe +
   shade;

@@ -1,9 +1,10 @@
 // Light from all around, as a latitude-longitude picture: z is up, the top row looks up, the middle column to +y.
 //
-// Sampled cell by cell of a coarse table of its light, evenly within a cell (alias.ts).
+// Sampled by a coarse table of its light, a row and then a cell of it, evenly within the cell.
 
 uniform highp sampler2D uEnv;
-uniform highp sampler2D uEnvChances; // keep, alias, density per solid angle x sine
+uniform highp sampler2D uEnvRows;
+uniform highp sampler2D uEnvChances; // of the cells of a row; density per solid angle x sine
 
 // Where a direction is on the picture.
 vec2 toPicture(vec3 w) {
@@ -22,17 +23,10 @@ float pdfEnv(vec3 w, vec2 uv) {
 
 vec3 sampleEnv(vec2 u) {
   ivec2 size = textureSize(uEnvChances, 0);
-  float scaled = u.x * float(size.x * size.y);
-  int cell = int(scaled);
-  float share = scaled - float(cell);
-  vec4 chance = texelFetch(uEnvChances, ivec2(cell % size.x, cell / size.x), 0);
-  if (share >= chance.r) {
-    cell = int(chance.g);
-    share = (share - chance.r) / (1.0 - chance.r);
-  } else {
-    share /= chance.r;
-  }
-  vec2 uv = vec2(float(cell % size.x) + share, float(cell / size.x) + u.y) / vec2(size);
+  vec2 share;
+  int row = invert(uEnvRows, 0, u.y, share.y);
+  int column = invert(uEnvChances, row, u.x, share.x);
+  vec2 uv = (vec2(column, row) + share) / vec2(size);
   float turn = 2.0 * PI * (uv.x - 0.5);
   float theta = PI * uv.y;
   return vec3(sin(theta) * sin(turn), sin(theta) * cos(turn), cos(theta));

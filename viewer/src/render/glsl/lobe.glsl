@@ -1,6 +1,6 @@
 // Half vectors drawn by the material's own distribution over theta_h (lobe.ts), evenly in solid angle within a cell.
 
-uniform highp sampler2D uLobe; // keep, alias, density per solid angle of the half vector
+uniform highp sampler2D uLobe; // density per solid angle of the half vector
 
 float sineHalfSquared(int i, int n) {
   float position = float(i) / float(n);
@@ -11,16 +11,8 @@ float sineHalfSquared(int i, int n) {
 // A direction to the light: wo reflected about a half vector around n.
 vec3 sampleLobe(vec3 n, vec3 wo, vec2 u) {
   int size = textureSize(uLobe, 0).x;
-  float scaled = u.x * float(size);
-  int cell = int(scaled);
-  float share = scaled - float(cell);
-  vec4 chance = texelFetch(uLobe, ivec2(cell, 0), 0);
-  if (share >= chance.r) {
-    cell = int(chance.g);
-    share = (share - chance.r) / (1.0 - chance.r);
-  } else {
-    share /= chance.r;
-  }
+  float share;
+  int cell = invert(uLobe, 0, u.x, share);
   // sin^2(theta/2) is even in solid angle and exact near the pole, where cos(theta) is not.
   float m = mix(sineHalfSquared(cell, size), sineHalfSquared(cell + 1, size), share);
   float sine = 2.0 * sqrt(m * (1.0 - m));

@@ -1,5 +1,6 @@
-// Points of a four-dimensional additive recurrence in 32-bit integers: x_i = i (1/g, 1/g^2, 1/g^3, 1/g^4) mod 1 with g^5 = g + 1
-// (M. Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018), shifted by a hash of the pixel. Integers wrap
+// Two points of a two-dimensional additive recurrence in 32-bit integers: x_i = i (1/g, 1/g^2) mod 1 with g^3 = g + 1
+// (M. Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018), each coordinate shifted by a hash of the
+// pixel. They are for two strategies whose samples are added, so that each may be even without the other. Integers wrap
 // exactly; a float32 product loses the fraction after some thousand points.
 
 const uint STEPS[4] = uint[4](@STEPS@);

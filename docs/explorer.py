@@ -1,0 +1,156 @@
+"""The pictures and the numbers of the page on the explorer, made by driving it in Chromium.
+
+``python docs/explorer.py`` writes screenshots, and a picture of six materials in the page beside the same in Mitsuba, and prints how
+far the two are apart. ``--only compare`` or ``--only screens`` does one of the two.
+"""
+
+import argparse
+import shutil
+import threading
+from collections.abc import Generator
+from contextlib import contextmanager
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import uvicorn
+from PIL import Image
+from playwright.sync_api import Browser, Page, sync_playwright
+
+from halfway import open_library
+from halfway.cli.console import cache_folder
+from halfway.library import Library
+from halfway.render import SCENES, Renderer, pictures
+from halfway.server import Page as Files
+from halfway.server import create_app
+from halfway.server.run import listen
+
+IMAGES = Path(__file__).parent / "images"
+FLAGS = ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
+MATERIALS = {"pink-felt": "matte", "cherry-235": "glossy", "chrome": "mirror-like"}
+SPHERE = SCENES["spheres"]
+SCENE_OF = {"points": SPHERE, "studio": replace(SPHERE, points=())}
+LIGHTS = {"points": "three lights", "studio": "studio"}
+EXPOSURE = -1.0
+SPP = 1024
+SCREENS = {
+    "explorer-dark": ((1440, 900), "dark", "#space=anchored&stops=gold-metallic-paint,blue-acrylic&t=0.42&shape=teapot"),
+    "explorer-light": ((1440, 900), "light", "#space=paper&stops=cherry-235,tungsten-carbide&t=0.5&light=city&compare=linear"),
+    "explorer-narrow-dark": ((800, 900), "dark", "#space=anchored&stops=pink-felt,chrome,teflon&t=0.3&light=sunset"),
+    "explorer-narrow-light": ((800, 900), "light", "#space=anchored&stops=green-plastic,gold-paint&t=0.5&shape=teapot&light=forest"),
+}  # fmt: skip
+
+
+def main() -> None:
+    """Make what is asked for."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--only", choices=["compare", "screens"])
+    only = parser.parse_args().only
+    library = open_library("builtin:merl-abc")
+    with served(library) as address, sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=shutil.which("chromium"), args=FLAGS)
+        if only != "screens":
+            compare(browser, address, library)
+        if only != "compare":
+            for name in SCREENS:
+                take(browser, address, name)
+        browser.close()
+
+
+@contextmanager
+def served(library: Library) -> Generator[str]:
+    """The address of an explorer of ``library``, on this machine."""
+    with listen(0) as listener:
+        app = create_app(library, page=Files.load(), cache=cache_folder())
+        server = uvicorn.Server(uvicorn.Config(app, log_level="error"))
+        thread = threading.Thread(target=server.run, args=([listener],), daemon=True)
+        thread.start()
+        yield f"http://127.0.0.1:{listener.getsockname()[1]}/"
+        server.should_exit = True
+        thread.join(20)
+
+
+def compare(browser: Browser, address: str, library: Library) -> None:
+    """The page beside Mitsuba: the picture, and a table of mean differences."""
+    page = browser.new_page(viewport={"width": 480, "height": 640}, color_scheme="dark")
+    print("| material | light | mean difference |\n|---|---|---|")
+    rows: list[np.ndarray] = []
+    for light, scene in SCENE_OF.items():
+        row: list[np.ndarray] = []
+        for name, kind in MATERIALS.items():
+            shown, covered = in_page(page, address, name, light)
+            height, width = covered.shape
+            renderer = Renderer(scene, size=(width, height), spp=SPP)
+            rendered = clipped(2**EXPOSURE * renderer.picture(library.brdf(name)))
+            inside = eroded(covered)
+            difference = np.abs(shown - rendered)[inside].mean() / rendered[inside].mean()
+            print(f"| {name} ({kind}) | {LIGHTS[light]} | {difference:.2%} |", flush=True)
+            row += [square(shown, covered), square(rendered, covered)]
+        rows.append(np.concatenate(row, axis=1))
+    page.close()
+    picture = pictures.to_srgb(np.concatenate(rows))
+    Image.fromarray(picture).save(IMAGES / "explorer-beside-mitsuba.webp", quality=88)
+
+
+def in_page(page: Page, address: str, name: str, light: str) -> tuple[np.ndarray, np.ndarray]:
+    """Linear RGB of the page's picture (height, width, 3), and which pixels the object covers."""
+    other = next(material for material in MATERIALS if material != name)
+    page.goto("about:blank")
+    page.goto(f"{address}#space=linear&stops={name},{other}&t=0&light={light}&exposure={EXPOSURE}")
+    page.wait_for_selector(".material[data-settled=true]", timeout=300_000)
+    # From the drawing buffer, not a screenshot: neither scaled nor composited.
+    width, height, data = page.evaluate(
+        """() => {
+          const canvas = document.querySelector(".live");
+          const copy = new OffscreenCanvas(canvas.width, canvas.height).getContext("2d");
+          copy.drawImage(canvas, 0, 0);
+          const { data } = copy.getImageData(0, 0, canvas.width, canvas.height);
+          return [canvas.width, canvas.height, Array.from(data)];
+        }"""
+    )
+    coded = np.array(data, np.uint8).reshape(height, width, 4)
+    return from_srgb(coded[..., :3] / 255), coded[..., 3] == 255
+
+
+def from_srgb(coded: np.ndarray) -> np.ndarray:
+    """Linear light of the sRGB curve of IEC 61966-2-1."""
+    return np.where(coded <= 0.04045, coded / 12.92, ((coded + 0.055) / 1.055) ** 2.4)
+
+
+def clipped(radiance: np.ndarray) -> np.ndarray:
+    """What a screen can show of it."""
+    return radiance.clip(0, 1)
+
+
+def eroded(covered: np.ndarray) -> np.ndarray:
+    """Without the outermost pixels, whose coverage two filters count differently."""
+    inside = covered.copy()
+    for axis in (0, 1):
+        for step in (1, -1):
+            inside &= np.roll(covered, step, axis)
+    return inside
+
+
+def square(picture: np.ndarray, covered: np.ndarray) -> np.ndarray:
+    """The object in the middle of a square, white paper around it."""
+    height, width = covered.shape
+    side = min(height, width)
+    top, left = (height - side) // 2, (width - side) // 2
+    cut = np.where(covered[..., None], picture, 1.0)[top : top + side, left : left + side]
+    return np.asarray(cut, np.float32)
+
+
+def take(browser: Browser, address: str, name: str) -> None:
+    """A screenshot of the page, when its picture is finished."""
+    (width, height), scheme, fragment = SCREENS[name]
+    page = browser.new_page(viewport={"width": width, "height": height}, color_scheme=scheme)  # pyright: ignore[reportArgumentType]
+    page.goto(address + fragment)
+    page.wait_for_selector(".material[data-settled=true]", timeout=600_000)
+    page.screenshot(path=IMAGES / f"{name}.png", full_page=True)
+    page.close()
+    Image.open(IMAGES / f"{name}.png").convert("RGB").save(IMAGES / f"{name}.webp", quality=86)
+    (IMAGES / f"{name}.png").unlink()
+
+
+if __name__ == "__main__":
+    main()
