@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from half_vector_domain import HalfVectorDomain
 from numpy.testing import assert_allclose
 
 from halfway.brdf import TabularBrdf, directional_albedo, tabulate
@@ -88,43 +89,6 @@ def test_samples_follow_their_density_and_bring_the_albedo(
         )
         assert test.run(), f"{view}: {test.messages}"
         assert_allclose(np.array(test.pdf_sum), 1, atol=0.01)
-
-
-class HalfVectorDomain:
-    """Directions to the light by the half vector with a fixed view: square-root spaced theta_h, phi_h.
-
-    Highlights fill cells here, whatever the view; mirrors would fall between the cells of a sphere.
-    """
-
-    def __init__(self, view: float) -> None:
-        self.wo = seen_from(view).wi
-
-    def bounds(self):
-        return mi.ScalarBoundingBox2f([0, -dr.pi], [1, dr.pi])
-
-    def aspect(self):
-        return 1
-
-    def map_forward(self, p):
-        sin_theta, cos_theta = dr.sincos(dr.pi / 2 * p.x * p.x)
-        sin_phi, cos_phi = dr.sincos(p.y)
-        h = mi.Vector3f(cos_phi * sin_theta, sin_phi * sin_theta, cos_theta)
-        return 2 * dr.dot(h, self.wo) * h - self.wo
-
-    def map_backward(self, wi):
-        h = self._h(wi)
-        theta = dr.atan2(dr.sqrt(h.x * h.x + h.y * h.y), h.z)
-        return mi.Vector2f(dr.sqrt(theta * 2 / dr.pi), dr.atan2(h.y, h.x))
-
-    def measure(self, wi):
-        """Solid angle of wi per area of the domain: 4 (wo . h) sin(theta_h) pi u."""
-        h = self._h(wi)
-        u = self.map_backward(wi).x
-        return 4 * dr.maximum(dr.dot(h, self.wo), 0) * dr.sqrt(h.x * h.x + h.y * h.y) * dr.pi * u
-
-    def _h(self, wi):
-        h = dr.normalize(wi + self.wo)
-        return dr.select(h.z < 0, -h, h)
 
 
 def _sample(bsdf, ctx, view, u):

@@ -5,7 +5,7 @@ import pytest
 from numpy.testing import assert_allclose
 from rgl_files import directions, fields, plugin_values, viewers
 
-from halfway import Grid, TabularBrdf, tabulate
+from halfway import MERL, Grid, TabularBrdf, tabulate
 from halfway.errors import OutputError
 from halfway.formats import read_rgl
 from halfway.formats.rgl_quality import Quality, lit_sphere, quality
@@ -208,23 +208,52 @@ def test_mitsuba_loads_spectra_in_spectral_variants(written):
     assert_allclose(spectra, rgb @ smooth_primaries(WAVELENGTHS)[at].T, rtol=1e-3, atol=1e-4)
 
 
-@pytest.mark.parametrize("degrees", [20, 70])
-def test_mitsuba_samples_what_its_density_says(written, degrees):
-    """The stock plugin's chi-square test on our file: the samples fall as ``pdf`` says."""
+@pytest.fixture(scope="module")
+def mirror(tmp_path_factory):
+    """Chrome, whose highlight is a tenth of a degree wide."""
+    path = tmp_path_factory.mktemp("mirror") / "chrome.bsdf"
+    write_rgl(path, tabulate(builtin("merl-abc").models["chrome"], MERL), resolution=RESOLUTIONS[1])
+    return path
+
+
+@pytest.mark.parametrize("degrees", [0, 20, 45, 70, 85])
+@pytest.mark.parametrize("material", ["glossy", "mirror"])
+def test_mitsuba_samples_what_its_density_says(
+    written, mirror, material, degrees, tmp_path, monkeypatch
+):
+    """The stock plugin's chi-square test on our files, at its own resolution, by half vectors (see `half_vector_domain`)."""
+    monkeypatch.chdir(tmp_path)  # where a failing test leaves its density
+    from half_vector_domain import HalfVectorDomain
+
+    path = mirror if material == "mirror" else written / "False.bsdf"
     mi = load_mitsuba()
     with mi.variant_context("llvm_ad_rgb"):
-        from mitsuba import chi2
+        import drjit as dr
 
-        theta = np.radians(degrees)
-        sample, density = chi2.BSDFAdapter(
-            "measured",
-            f'<string name="filename" value="{written / "False.bsdf"}"/>',
-            wi=mi.Vector3f(float(np.sin(theta)), 0.0, float(np.cos(theta))),
+        bsdf, context = mi.load_dict({"type": "measured", "filename": str(path)}), mi.BSDFContext()
+        domain = HalfVectorDomain(degrees)
+
+        def seen(n):
+            si = dr.zeros(mi.SurfaceInteraction3f, n)
+            si.wi = domain.wo
+            return si
+
+        def sample(u):
+            drawn, weight = bsdf.sample(context, seen(dr.width(u)), u[0], mi.Point2f(u[1], u[2]))
+            # What is drawn below the horizon carries nothing, and `pdf` is 0 there.
+            return drawn.wo, dr.select(dr.max(weight) > 0, mi.Float(1), 0)
+
+        test = mi.chi2.ChiSquareTest(
+            domain=domain,
+            sample_func=sample,
+            pdf_func=lambda wi: bsdf.pdf(context, seen(dr.width(wi)), wi) * domain.measure(wi),
+            sample_dim=3,
+            sample_count=200_000,
+            res=51,
+            ires=32,
         )
-        test = chi2.ChiSquareTest(
-            chi2.SphericalDomain(), sample, density, sample_dim=3, sample_count=200_000, res=101, ires=16
-        )  # fmt: skip
         assert test.run(), test.messages
+        assert_allclose(np.array(test.pdf_sum), 1, atol=0.01)
 
 
 def test_mitsuba_samples_in_proportion_to_the_material(written):

@@ -8,6 +8,7 @@ import pytest
 
 from halfway.errors import FetchError
 from halfway.fetch.unpack import unpack
+from halfway.formats import find_brdfs
 
 
 def zipped(members):
@@ -26,6 +27,14 @@ def test_no_member_leaves_the_folder(tmp_path, name):
     with pytest.raises(FetchError, match="leads out of the folder"):
         unpack(tmp_path / "x.zip", tmp_path / "in" / "side")
     assert [p.name for p in tmp_path.rglob("*")] == ["x.zip"]
+
+
+@pytest.mark.parametrize("name", ["a\x1b[2J", "a\nb", "a" * 201])
+def test_a_name_that_is_none_is_refused(tmp_path, name):
+    (tmp_path / "x.zip").write_bytes(zipped({name: b"1"}))
+    with pytest.raises(FetchError, match="expected a path of at most 200 printable ones") as said:
+        unpack(tmp_path / "x.zip", tmp_path / "in")
+    assert str(said.value).isprintable()
 
 
 def test_no_link_is_made(tmp_path):
@@ -52,6 +61,34 @@ def test_a_member_that_lies_about_its_size_is_refused(tmp_path):
     with pytest.raises(FetchError, match="is a damaged zip"):
         unpack(tmp_path / "x.zip", tmp_path)
     assert [p.name for p in tmp_path.iterdir()] == ["x.zip"]
+
+
+def longer_than_the_zip(packed):
+    """The first member claims 4 GB in the zip, in the directory, which is what `zipfile` believes."""
+    directory = packed.index(b"PK\1\2")
+    return packed[: directory + 20] + (2**32 - 2).to_bytes(4, "little") + packed[directory + 24 :]
+
+
+def test_a_member_that_claims_more_than_the_zip_has_takes_no_memory(tmp_path):
+    (tmp_path / "x.zip").write_bytes(longer_than_the_zip(zipped({"a.h5": bytes(range(256))})))
+    with pytest.raises(FetchError, match="claims to be longer than the zip"):
+        unpack(tmp_path / "x.zip", tmp_path / "in")
+    found, skipped = find_brdfs([tmp_path / "x.zip"])
+    assert not found
+    assert "claims to be longer than the zip" in skipped[0].reason
+
+
+def test_a_bomb_is_not_read(tmp_path, monkeypatch):
+    monkeypatch.setattr("halfway.formats.find.LARGEST_MEMBER", 100_000)
+    (tmp_path / "x.zip").write_bytes(zipped({"bomb.bsdf": bytes(3_000_000)}))
+    _, skipped = find_brdfs([tmp_path / "x.zip"])
+    assert skipped[0].reason == "unpacks to 3,000,000 bytes"
+
+
+def test_a_members_name_cannot_steer_a_terminal(tmp_path):
+    (tmp_path / "x.zip").write_bytes(zipped({"\x1b[2J\nclay.binary": b"no"}))
+    _, skipped = find_brdfs([tmp_path / "x.zip"])
+    assert skipped[0].path.endswith("x.zip:?[2J?clay.binary")
 
 
 @pytest.mark.parametrize("keep", [10, 60, -30])

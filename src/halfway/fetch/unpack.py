@@ -12,6 +12,7 @@ from ..formats.sources import UNREADABLE
 MAX_RATIO = 100
 """Bytes of a member for each byte in the zip, at most; tables compress to a half or so."""
 MAX_MEMBERS = 10_000
+LONGEST_NAME = 200
 _CHUNK = 1 << 20
 
 
@@ -51,6 +52,8 @@ def _require_modest(archive: Path, members: list[zipfile.ZipInfo]) -> None:
         )
     n_bytes = sum(info.file_size for info in members)
     n_packed = archive.stat().st_size
+    if max((info.compress_size for info in members), default=0) > n_packed:
+        raise zipfile.BadZipFile("a member claims to be longer than the zip")
     if n_bytes > MAX_RATIO * n_packed:
         raise FetchError(
             f"{archive.name} would unpack to {n_bytes:,} bytes from {n_packed:,}: no more than {MAX_RATIO} times its "
@@ -68,6 +71,11 @@ def _inner(archive: Path, info: zipfile.ZipInfo) -> Path:
     if outside or not path.parts:
         raise FetchError(
             f"{archive.name} has a member {name[:100]!r}, which leads out of the folder: it was not unpacked."
+        )
+    if not name.isprintable() or len(name) > LONGEST_NAME:
+        raise FetchError(
+            f"{archive.name} has a member named {name[:50]!r} ({len(name)} characters): expected a path of at most "
+            f"{LONGEST_NAME} printable ones. It was not unpacked."
         )
     if stat.S_ISLNK(info.external_attr >> 16):
         raise FetchError(f"{archive.name} has a link in it, {name[:100]!r}: it was not unpacked.")

@@ -18,8 +18,10 @@ from .nbrdf import NeuralBrdf, read_nbrdf_source, require_small
 from .rgl_reader import material_name, read_rgl_source
 from .sources import FileSource, MemberSource, Source, by_name, members
 
-LARGEST_MEMBER = 1_000_000_000
-"""Bytes of a zip's member that are read, at most; a table of the MERL database has 35 million."""
+LARGEST_MEMBER = 100_000_000
+"""Bytes of a zip's member that are read whatever it takes in the zip; a table of the MERL database has 35 million."""
+MAX_RATIO = 100
+"""Bytes of a larger member for each that it takes in the zip, at most."""
 
 _BUILTIN = "builtin:"
 _EXPECTED = "expected a MERL table, a neural BRDF (.h5) or an RGL material (.bsdf)"
@@ -197,11 +199,8 @@ def _inspect(source: Source) -> Found:
     FormatError
         When it is no BRDF, or cannot be one because of its size.
     """
-    if isinstance(source, MemberSource) and source.n_bytes > LARGEST_MEMBER:
-        raise FormatError(
-            f"{source.label} unpacks to {source.n_bytes:,} bytes: no more than {LARGEST_MEMBER:,} are read from a zip. "
-            "Unpack it first."
-        )
+    if isinstance(source, MemberSource):
+        _require_modest(source)
     head = source.head(HEAD_BYTES)
     match kind(head, source.n_bytes):
         case "merl":
@@ -216,6 +215,15 @@ def _inspect(source: Source) -> Found:
         case _:
             what = description(head) or "is of no known format"
             raise FormatError(f"{source.label} {what}: {_EXPECTED}.")
+
+
+def _require_modest(source: MemberSource) -> None:
+    most = max(LARGEST_MEMBER, MAX_RATIO * source.member.compress_size)
+    if source.n_bytes > most:
+        raise FormatError(
+            f"{source.label} unpacks to {source.n_bytes:,} bytes: no more than {most:,} are read from a zip. "
+            "Unpack it first."
+        )
 
 
 def _kind(source: Source) -> str | None:

@@ -156,6 +156,9 @@ class MemberSource(Source):
         return _member_at, (Path(str(self.archive.filename)).absolute(), self.member.header_offset)
 
     def _open(self) -> BufferedIOBase:
+        # `zipfile` takes memory for what a member claims to take in the zip.
+        if self.member.compress_size > Path(cast("str", self.archive.filename)).stat().st_size:
+            raise zipfile.BadZipFile("it claims to be longer than the zip")
         return cast("BufferedIOBase", self.archive.open(self.member))
 
 
