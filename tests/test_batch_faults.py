@@ -1,0 +1,188 @@
+"""Batches on real faults: killed, interrupted, on a full disk, in a folder that cannot be written."""
+
+import os
+import random
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+from batch_server import N
+
+from halfway import Grid, LinearSpace, Route, TabularBrdf, build_library
+from halfway.batch import verify
+from halfway.errors import OutputError
+from halfway.export import write_route
+from halfway.formats import write_merl
+
+GRID = Grid.merl(24, 20, 40)
+N_KILLS = 10
+INTERRUPTED = (
+    "halfway: interrupted; what was finished is kept, and the same command goes on from there.\n"
+)
+
+
+@pytest.fixture(scope="module")
+def library(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("faults")
+    rng = np.random.default_rng(0)
+    for i in range(3):
+        values = rng.gamma(1.0, 0.1, (3, *GRID.shape)).astype(np.float32)
+        write_merl(folder / "measured" / f"m{i}.binary", TabularBrdf(values, GRID))
+    return build_library([folder / "measured"], folder / "some.brdflib").library
+
+
+@pytest.fixture(scope="module")
+def route(library):
+    return Route.through(LinearSpace(library.name, library.names), library.names)
+
+
+@pytest.fixture(scope="module")
+def reference(library, route, tmp_path_factory):
+    """What a run that nobody stops leaves."""
+    folder = tmp_path_factory.mktemp("reference")
+    write_route(folder, route, route.steps(N), library, format="merl")
+    return contents(folder)
+
+
+def contents(folder):
+    """The bytes of the files under their final names."""
+    return {
+        path.name: path.read_bytes()
+        for path in folder.iterdir()
+        if not path.name.startswith((".", "manifest"))
+    }
+
+
+class Server:
+    """Runs that can be killed (see `batch_server`)."""
+
+    def __init__(self, library):
+        command = [sys.executable, Path(__file__).parent / "batch_server.py", library.path]
+        self.process = subprocess.Popen(
+            command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, bufsize=1
+        )
+        assert self.process.stdout.readline() == "ready\n"
+
+    def run(self, folder, *, kill_after=None):
+        """Run a batch, killing it after some seconds; gives how long it took."""
+        start = time.perf_counter()
+        self.process.stdin.write(f"{folder}\n")
+        pid = int(self.process.stdout.readline())
+        if kill_after is not None:
+            time.sleep(kill_after)
+            os.kill(pid, signal.SIGKILL)  # nobody waits for it yet, so the id is still its own
+        self.process.stdin.write("end\n")
+        assert self.process.stdout.readline() == "ended\n"
+        return time.perf_counter() - start
+
+
+@pytest.fixture
+def server(library):
+    server = Server(library)
+    yield server
+    server.process.communicate(timeout=30)
+
+
+def test_a_batch_killed_at_random_moments_ends_right(server, reference, tmp_path):
+    """Kill -9, then the same again: what is there is right at any time, and in the end all is."""
+    whole = server.run(tmp_path / "whole")
+    chance = random.Random(1)
+    n_partial = 0
+    for i in range(N_KILLS):
+        out = tmp_path / f"out-{i // 3}"  # up to three kills in one folder
+        server.run(out, kill_after=chance.uniform(0, 0.9 * whole))
+        found = contents(out) if out.exists() else {}
+        assert {name: reference[name] for name in found} == found
+        n_partial += 0 < len(found) < len(reference)
+    assert n_partial > 0, "no kill fell inside a batch"
+    for out in tmp_path.glob("out-*"):
+        server.run(out)
+        assert contents(out) == reference
+        assert verify(out) == (N + 1, [], [], [])
+        assert not list(out.glob(".*"))
+
+
+def test_ctrl_c_is_one_line_and_leaves_no_temporary(library, reference, tmp_path):
+    command = [sys.executable, "-m", "halfway", "route", library.path, *library.names, "-n", N]
+    command += ["--space", "linear", "--pace", "uniform", "--format", "merl", "-o", "out"]
+    process = subprocess.Popen(
+        list(map(str, command)), cwd=tmp_path, stderr=subprocess.PIPE, text=True
+    )
+    while process.poll() is None and not (tmp_path / "out" / "003.binary").exists():
+        time.sleep(0.001)
+    process.send_signal(signal.SIGINT)
+    _, talk = process.communicate(timeout=60)
+    found = contents(tmp_path / "out")
+    assert {name: reference[name] for name in found} == found
+    assert not list((tmp_path / "out").glob(".*"))
+    assert (process.returncode, talk) == (
+        130,
+        INTERRUPTED,
+    )
+
+
+def test_ctrl_c_while_it_starts_is_one_line():
+    command = [sys.executable, "-X", "importtime", "-m", "halfway", "route"]
+    with subprocess.Popen(command, stderr=subprocess.PIPE, text=True) as process:
+        assert process.stderr is not None
+        next(line for line in process.stderr if "typer" in line)
+        process.send_signal(signal.SIGINT)
+        said = [line for line in process.stderr if not line.startswith("import time:")]
+    assert (process.returncode, said) == (130, [INTERRUPTED])
+
+
+@pytest.fixture
+def small_disk(tmp_path):
+    """A file system of eight megabytes."""
+    disk = tmp_path / "disk"
+    disk.mkdir()
+    mounted = subprocess.run(
+        ["mount", "-t", "tmpfs", "-o", "size=8m", "tmpfs", disk], capture_output=True
+    )
+    if mounted.returncode:
+        pytest.skip("needs the right to mount a small file system, which only root has")
+    yield disk
+    subprocess.run(["umount", disk], check=True)
+
+
+def test_a_disk_that_fills_keeps_what_is_finished_and_goes_on_with_room(
+    library, route, reference, small_disk
+):
+    out, thief = small_disk / "out", small_disk / "thief"
+
+    def track(items, label, total):  # noqa: ARG001
+        """Takes the room away while the third table is awaited."""
+        for i, item in enumerate(items):
+            if label == "Tables" and i == 2:
+                with thief.open("wb", buffering=0) as file, pytest.raises(OSError, match="space"):
+                    while True:
+                        file.write(bytes(4096))
+            yield item
+
+    ts = route.steps(12)
+    with pytest.raises(OutputError, match=r"cannot be written: the disk is full\. Free some space"):
+        write_route(out, route, ts, library, format="merl", track=track)
+    assert not list(out.glob(".*"))
+    assert (out / "000.binary").read_bytes() == reference["000.binary"]
+    thief.unlink()
+    written = write_route(out, route, ts, library, format="merl")
+    assert written.n_kept >= 2
+    assert verify(out) == (13, [], [], [])
+
+
+def test_too_little_room_is_said_before_anything_is_written(library, route, small_disk):
+    with pytest.raises(OutputError, match=r"a batch of 401 files takes 0\.18 GB and .* has 0\.00"):
+        write_route(small_disk / "out", route, route.steps(400), library, format="merl")
+    assert list(small_disk.iterdir()) == []
+
+
+def test_a_folder_that_cannot_be_written_gets_one_line(library, route, small_disk):
+    subprocess.run(["mount", "-o", "remount,ro", small_disk], check=True)
+    with pytest.raises(
+        OutputError, match=r"out cannot be written: no permission in .*disk. Choose"
+    ):
+        write_route(small_disk / "out", route, route.steps(3), library)
