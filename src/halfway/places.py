@@ -17,6 +17,8 @@ from typing import Any, NamedTuple
 from .errors import MissingExtraError, RemoteError
 
 SCHEME = "://"
+_PACKAGES = {"s3": "s3fs", "gs": "gcsfs"}
+"""Of the extra ``cloud``, by the beginning of a URL."""
 
 
 class RemoteStat(NamedTuple):
@@ -219,7 +221,10 @@ def _file_system(url: str) -> tuple[Any, str]:
         # Others write there too: listings are not remembered.
         return url_to_fs(url, use_listings_cache=False)
     except ImportError as error:
-        raise MissingExtraError(url, str(error.name or url.partition(SCHEME)[0]), "cloud") from None
+        package = _PACKAGES.get(url.partition(SCHEME)[0])
+        if package:
+            raise MissingExtraError(url, package, "cloud") from None
+        raise RemoteError(f"{url} needs a package of its own: {error}.") from None
     except ValueError:
         raise RemoteError(
             f"{url} begins with no storage that is known: expected such as s3://, gs:// or a path."
