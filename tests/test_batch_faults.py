@@ -6,6 +6,7 @@ import signal
 import subprocess
 import sys
 import time
+from contextlib import suppress
 from pathlib import Path
 
 import numpy as np
@@ -149,6 +150,13 @@ def small_disk(tmp_path):
     subprocess.run(["umount", disk], check=True)
 
 
+def fill(path):
+    """Write until the disk is full."""
+    with suppress(OSError), path.open("wb", buffering=0) as file:
+        while file.write(bytes(4096)):
+            pass
+
+
 def test_a_disk_that_fills_keeps_what_is_finished_and_goes_on_with_room(
     library, route, reference, small_disk
 ):
@@ -158,9 +166,7 @@ def test_a_disk_that_fills_keeps_what_is_finished_and_goes_on_with_room(
         """Takes the room away while the third table is awaited."""
         for i, item in enumerate(items):
             if label == "Tables" and i == 2:
-                with thief.open("wb", buffering=0) as file, pytest.raises(OSError, match="space"):
-                    while True:
-                        file.write(bytes(4096))
+                fill(thief)
             yield item
 
     ts = route.steps(12)
@@ -175,7 +181,7 @@ def test_a_disk_that_fills_keeps_what_is_finished_and_goes_on_with_room(
 
 
 def test_too_little_room_is_said_before_anything_is_written(library, route, small_disk):
-    with pytest.raises(OutputError, match=r"a batch of 401 files takes 0\.18 GB and .* has 0\.00"):
+    with pytest.raises(OutputError, match=r"a batch of 401 files takes 0\.18 GB and .* has 0\.01"):
         write_route(small_disk / "out", route, route.steps(400), library, format="merl")
     assert list(small_disk.iterdir()) == []
 
