@@ -15,7 +15,7 @@ KHR_materials_clearcoat, the sections "Implementation".
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, ClassVar, Self
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -54,7 +54,7 @@ class Gltf(AnalyticModel):
     }
 
     @classmethod
-    def starts(cls, body: Colour, glossy: Colour) -> Sequence[Self]:
+    def starts(cls, body: Colour, glossy: Colour) -> Sequence["Gltf"]:
         coat = {"clearcoat": 0.1, "clearcoat_roughness": 0.1}
         return [
             cls(colour, roughness=r, metallic=m, specular=0.95, specular_color=0.95, **coat)

@@ -15,7 +15,7 @@ Only measured pairs count. d is a root mean square in units of the lightness of 
 """
 
 from functools import cache
-from typing import NamedTuple, Self
+from typing import NamedTuple
 
 import numpy as np
 from jaxtyping import Bool, Float64
@@ -64,7 +64,7 @@ class Target(NamedTuple):
     seen: Vector
 
     @classmethod
-    def of(cls, brdf: Brdf, name: str) -> Self:
+    def of(cls, brdf: Brdf, name: str) -> "Target":
         """What is to be fitted; negative samples count as 0.
 
         Raises

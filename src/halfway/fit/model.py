@@ -5,7 +5,7 @@ A model is a `Brdf`: it is evaluated, tabulated, checked and rendered as any oth
 
 from abc import abstractmethod
 from collections.abc import Mapping, Sequence
-from typing import Any, ClassVar, NamedTuple, Self
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 from jaxtyping import Float64
@@ -40,7 +40,7 @@ class AnalyticModel(IsotropicModel):
 
     @classmethod
     @abstractmethod
-    def starts(cls, body: Colour, glossy: Colour) -> Sequence[Self]:
+    def starts(cls, body: Colour, glossy: Colour) -> Sequence["AnalyticModel"]:
         """Where a search may begin, for a material of this diffuse and this whole albedo."""
 
     def __post_init__(self) -> None:
@@ -71,7 +71,7 @@ class AnalyticModel(IsotropicModel):
         return 3 if name in cls.colours else 1
 
     @classmethod
-    def from_vector(cls, vector: Vector) -> Self:
+    def from_vector(cls, vector: Vector) -> "AnalyticModel":
         """The model with the parameters of a vector."""
         values: dict[str, Any] = {}
         start = 0

@@ -24,7 +24,7 @@ E. Turquin, "Practical Multiple Scattering Compensation for Microfacet Models", 
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, ClassVar, NamedTuple, Self
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
@@ -81,7 +81,7 @@ class OpenPbr(AnalyticModel):
     }
 
     @classmethod
-    def starts(cls, body: Colour, glossy: Colour) -> Sequence[Self]:
+    def starts(cls, body: Colour, glossy: Colour) -> Sequence["OpenPbr"]:
         few = {"coat_weight": 0.1, "coat_roughness": 0.1, "fuzz_weight": 0.1}
         return [
             cls(

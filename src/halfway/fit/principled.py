@@ -18,7 +18,7 @@ with Integrated Subsurface Scattering", 2015; what Mitsuba makes of them: the pa
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, ClassVar, Self
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -63,7 +63,7 @@ class Principled(AnalyticModel):
     }
 
     @classmethod
-    def starts(cls, body: Colour, glossy: Colour) -> Sequence[Self]:
+    def starts(cls, body: Colour, glossy: Colour) -> Sequence["Principled"]:
         few = {"clearcoat": 0.1, "clearcoat_gloss": 0.5, "sheen": 0.05, "flatness": 0.2}
         return [
             cls(colour, roughness=r, metallic=m, spec_tint=0.1, sheen_tint=0.1, **few)

@@ -1,0 +1,185 @@
+"""Analytic models: their values against references, and fits that find what is known."""
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from numpy.testing import assert_allclose
+from strategies import directions
+
+from halfway.brdf import IsotropicModel, TabularBrdf, directional_albedo, tabulate
+from halfway.errors import FormatError, HalfwayError
+from halfway.fit import MODELS, Gltf, OpenPbr, Principled, fit
+from halfway.fit.metric import comparison_pairs
+from halfway.halfdiff import Grid
+from halfway.models import builtin
+
+GRID = Grid.merl(90, 30, 36)
+ANGLES = np.radians([0, 20, 45, 70, 80])
+ABC = builtin("merl-abc").models
+
+KNOWN = {
+    "plastic": Principled([0.1, 0.3, 0.6], roughness=0.3, specular=0.6),
+    "metal": Principled([0.9, 0.7, 0.3], roughness=0.2, metallic=1.0),
+    "cloth": Principled([0.5, 0.2, 0.1], roughness=0.9, sheen=0.5, flatness=0.6),
+    "lacquer": Principled([0.4, 0.1, 0.1], roughness=0.6, clearcoat=0.9, clearcoat_gloss=0.6),
+    "tinted": Principled([0.6, 0.3, 0.1], metallic=0.3, spec_tint=0.7, sheen=0.4, sheen_tint=0.8),
+    "no index": Principled([0.9, 0.5, 0.2], roughness=0.3, metallic=0.5, specular=0.0),
+}
+
+
+@pytest.mark.parametrize("name", KNOWN)
+def test_principled_is_mitsubas(name):
+    from halfway.render import register
+    from halfway.render.fits import to_plugin
+
+    register()
+    import drjit as dr
+    import mitsuba as mi
+
+    v = np.random.default_rng(1).normal(size=(2, 5_000, 3))
+    v[..., 2] = np.abs(v[..., 2])
+    wi, wo = (v / np.linalg.norm(v, axis=-1, keepdims=True)).astype(np.float32)
+    si = dr.zeros(mi.SurfaceInteraction3f, len(wi))
+    si.wi, light = (mi.Vector3f(*(mi.Float(np.array(x)) for x in w.T)) for w in (wo, wi))
+    plugin = mi.load_dict(to_plugin(KNOWN[name]))
+    got = np.array(plugin.eval(mi.BSDFContext(), si, light)).T
+    expected = KNOWN[name].eval(wi.astype(float), wo.astype(float)) * wi[:, 2:]
+    # Float32 against float64: Mitsuba's GGX loses digits at the peak.
+    assert_allclose(got, expected, rtol=1e-4, atol=1e-7)
+
+
+def gltf_by_the_book(model: Gltf, wi, wo) -> np.ndarray:
+    """Appendix B.3 of glTF 2.0 and the extensions, one pair at a time, in their own symbols."""
+
+    def specular_brdf(alpha):
+        chi = 1.0 if NdotH > 0 else 0.0
+        D = alpha**2 * chi / (np.pi * (NdotH**2 * (alpha**2 - 1) + 1) ** 2)
+        g = [x + np.sqrt(alpha**2 + (1 - alpha**2) * x**2) for x in (NdotL, NdotV)]
+        return D / (g[0] * g[1])
+
+    H = (wi + wo) / np.linalg.norm(wi + wo)
+    NdotL, NdotV, NdotH, VdotH = wi[2], wo[2], H[2], float(wo @ H)
+    fresnel_w = (1 - VdotH) ** 5
+    specular = specular_brdf(model.roughness**2)
+    f0 = np.minimum(((1 - model.ior) / (1 + model.ior)) ** 2 * model.specular_color, 1.0)
+    dielectric_fresnel = model.specular * (f0 + (1 - f0) * fresnel_w)
+    diffuse = model.base_color / np.pi
+    dielectric = dielectric_fresnel * specular + (1 - dielectric_fresnel.max()) * diffuse
+    metal = specular * (model.base_color + (1 - model.base_color) * fresnel_w)
+    material = (1 - model.metallic) * dielectric + model.metallic * metal
+    share = model.clearcoat * (0.04 + 0.96 * (1 - NdotV) ** 5)
+    return (1 - share) * material + share * specular_brdf(model.clearcoat_roughness**2)
+
+
+@given(directions(85.0), directions(85.0), st.integers(0, 2**32 - 1))
+def test_gltf_is_the_specifications(wi, wo, seed):
+    low, high = Gltf.bounds()
+    model = Gltf.from_vector(low + (high - low) * np.random.default_rng(seed).uniform(0.1, 1, 12))
+    assert_allclose(model.eval(wi, wo), gltf_by_the_book(model, wi, wo), rtol=1e-7)
+
+
+def test_a_white_diffuse_openpbr_reflects_what_its_gloss_leaves():
+    """Without an index the gloss is nothing, and the diffuse part, however rough, loses no energy."""
+    for roughness in (0.0, 0.5, 1.0):
+        white = OpenPbr([1, 1, 1], base_diffuse_roughness=roughness, specular_ior=1.0)
+        assert_allclose(directional_albedo(white, ANGLES[:4]), 1, atol=0.01)
+
+
+def test_the_metric_integrates_albedos():
+    pairs = comparison_pairs()
+    matte = pairs.reflected @ np.full(len(pairs.wi), 1 / np.pi)
+    # Light from beyond 85 degrees is left out: sin^2 of the last five, .8 %, and what the coarse rule adds.
+    assert_allclose(matte, 1, atol=0.05)
+    assert_allclose([np.square(w).sum() for w in (pairs.weight, pairs.view_weight)], 1)
+
+
+@pytest.mark.parametrize("kind", MODELS.values(), ids=MODELS)
+def test_vectors_and_models_go_back_and_forth(kind):
+    low, high = kind.bounds()
+    assert (low < high).all()
+    assert_allclose(kind.from_vector(kind.neutral()).to_vector(), kind.neutral())
+
+
+TRUTHS = [
+    KNOWN["plastic"],
+    KNOWN["metal"],
+    Gltf([0.6, 0.3, 0.1], roughness=0.4),
+    Gltf([0.9, 0.6, 0.4], metallic=1.0, roughness=0.25),
+    OpenPbr([0.1, 0.3, 0.5], specular_roughness=0.2),
+    OpenPbr([0.9, 0.6, 0.4], base_metalness=1.0, specular_roughness=0.4),
+]
+
+
+@pytest.mark.parametrize("truth", TRUTHS, ids=lambda m: f"{type(m).__name__}-{m.base_color[0]}")
+def test_a_table_of_a_model_gives_the_model_back(truth):
+    (name,) = (name for name, kind in MODELS.items() if isinstance(truth, kind))
+    found = fit(tabulate(truth, GRID), name)
+    assert_allclose(found.model.base_color, truth.base_color, atol=0.03)
+    roughness = "specular_roughness" if name == "openpbr" else "roughness"
+    assert_allclose(getattr(found.model, roughness), getattr(truth, roughness), atol=0.02)
+    # What is left is the grid's: theta_d in steps of three degrees.
+    assert found.picture.psnr > 38
+    assert found.albedo_error < 0.02
+
+
+@pytest.mark.parametrize("model", MODELS)
+@pytest.mark.parametrize("name", ["chrome", "blue-fabric", "red-phenolic", "white-diffuse-bball"])
+def test_a_fit_reflects_no_more_than_it_receives_and_stays_in_bounds(name, model):
+    found = fit(ABC[name], model, name=name)
+    low, high = found.model.bounds()
+    x = found.model.to_vector()
+    assert ((x >= low) & (x <= high)).all()
+    assert directional_albedo(found.model, ANGLES).max() <= 1.005
+
+
+class Retroreflective(IsotropicModel):
+    """Light that goes back to where it comes from; no model here does that."""
+
+    def at(self, theta_h, theta_d, phi_d, cos_i, cos_o):  # noqa: ARG002
+        lobe = 0.2 / np.pi + 3 * np.exp(-((theta_d / 0.2) ** 2)) + 0 * theta_h
+        return np.stack([lobe, lobe, lobe])
+
+
+@pytest.mark.parametrize(("model", "least"), [("openpbr", 12), ("principled", 12), ("gltf", 12)])
+def test_what_no_model_has_is_fitted_badly_and_said_so(model, least):
+    found = fit(Retroreflective(), model, name="tape")
+    assert least < found.picture.psnr < 30
+    assert f"{found.picture.psnr:.1f} dB" in found.summary
+
+
+@pytest.mark.parametrize("model", MODELS)
+def test_a_mirror_like_lobe_keeps_its_energy(model):
+    """Its peak is some thousands of 1/sr and less than a degree wide."""
+    truth = Gltf([0.8, 0.8, 0.8], metallic=1.0, roughness=0.1)
+    found = fit(tabulate(truth, GRID), model)
+    assert found.albedo_error < 0.06
+    width = getattr(found.model, "specular_roughness", getattr(found.model, "roughness", None))
+    assert 0.07 < width < 0.13
+
+
+def test_unmeasured_samples_do_not_count():
+    table = tabulate(ABC["gold-paint"], GRID)
+    holes = np.array(table.values)
+    holes[:, ::2, ::5] = np.nan
+    whole, some = (fit(t, "gltf").model for t in (table, TabularBrdf(holes, GRID)))
+    assert_allclose(some.base_color, whole.base_color, atol=0.02)
+    empty = TabularBrdf(np.full_like(holes, np.nan), GRID)
+    with pytest.raises(FormatError, match=r"ghost is measured at none of the .* pairs"):
+        fit(empty, name="ghost")
+
+
+def test_an_unknown_model_is_named():
+    with pytest.raises(HalfwayError, match="no model 'phong': expected openpbr, principled, gltf"):
+        fit(ABC["teflon"], "phong")
+
+
+def test_a_fit_is_json():
+    found = fit(ABC["teflon"], "gltf", name="teflon")
+    document = json.loads(json.dumps(found.to_json()))
+    assert (document["format"], document["material"], document["model"]) == (1, "teflon", "gltf")
+    assert document["parameters"]["base_color"] == found.model.base_color.tolist()
+    assert replace(found, name="other").to_json()["material"] == "other"
