@@ -1,4 +1,4 @@
-"""Puts the explorer's page into the wheel: runs npm and Vite, with Node from PyPI where the machine has none."""
+"""Puts the explorer's page and its notebook widget into the wheel: runs npm and Vite, with Node from PyPI where the machine has none."""
 
 import importlib.util
 from pathlib import Path
@@ -25,9 +25,7 @@ class PageHook(BuildHookInterface):
     def _is_ready(self) -> bool:
         # Only a source distribution (it has PKG-INFO) comes with a page; in a checkout it may be an old one.
         root = Path(self.root)
-        return (root / "PKG-INFO").is_file() and (
-            root / _building(root).PAGE / "index.html"
-        ).is_file()
+        return (root / "PKG-INFO").is_file() and _building(root).is_built(root)
 
 
 def _building(root: Path) -> ModuleType:

@@ -56,7 +56,7 @@ export interface State {
 }
 
 /** What undo goes back to. */
-type Way = Pick<State, "space" | "pace" | "stops" | "point">;
+export type Way = Pick<State, "space" | "pace" | "stops" | "point">;
 
 /** What a link carries. */
 export type Linked = Pick<
@@ -196,6 +196,13 @@ export class Actions {
 
   setPace = (pace: string): void => this.go({ pace });
 
+  /** Another way; what is not said of it stays. */
+  go = (change: Partial<Way>): void => {
+    const { past, slot } = this.store.get();
+    const way = { ...this.way(), point: null, ...change };
+    this.follow(way, [...past.slice(1 - MAX_PAST), this.way()], [], Math.min(slot, way.stops.length - 1));
+  };
+
   undo = (): void => {
     const { past, future } = this.store.get();
     const way = past.at(-1);
@@ -207,12 +214,6 @@ export class Actions {
     const [way, ...rest] = future;
     if (way) this.follow(way, [...past, this.way()], rest, way.stops.length - 1);
   };
-
-  private go(change: Partial<Way>): void {
-    const { past, slot } = this.store.get();
-    const way = { ...this.way(), point: null, ...change };
-    this.follow(way, [...past.slice(1 - MAX_PAST), this.way()], [], Math.min(slot, way.stops.length - 1));
-  }
 
   private follow(way: Way, past: readonly Way[], future: readonly Way[], slot: number): void {
     const { route, t } = this.store.get();

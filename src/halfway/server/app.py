@@ -56,7 +56,17 @@ def create_app(
 
     Without a ``page`` it is the API alone. ``warm`` prepares, beside the first answers, what the first route would wait for.
     """
-    explorer = Explorer(library, cache=cache, track=track)
+    return app_of(Explorer(library, cache=cache, track=track), page=page, hosts=hosts, warm=warm)
+
+
+def app_of(
+    explorer: Explorer,
+    *,
+    page: Page | None = None,
+    hosts: Iterable[str] = LOOPBACK,
+    warm: bool = False,
+) -> FastAPI:
+    """The application of an explorer that is there already."""
     if warm:
         Thread(target=explorer.warm, daemon=True).start()
     app = FastAPI(

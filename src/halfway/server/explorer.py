@@ -116,6 +116,10 @@ class Explorer:
         return look_at(self.space(name), self._pca)
 
     def route(self, space: str, stops: Sequence[str], pace: str) -> RouteView:
+        """The route through ``stops``, as the page takes it."""
+        return to_view(self.way(space, stops, pace))
+
+    def way(self, space: str, stops: Sequence[str], pace: str) -> Route:
         """The route through ``stops``."""
         if len(stops) > MAX_STOPS:
             raise SpaceError(
@@ -124,7 +128,7 @@ class Explorer:
         if pace not in PACES:
             raise SpaceError(f"there is no pace {pace!r}: expected {' or '.join(PACES)}.")
         route = Route.through(self.space(space), stops)
-        return to_view(perceptual(route, self.pictures) if pace == "perceptual" else route)
+        return perceptual(route, self.pictures) if pace == "perceptual" else route
 
     def place(self, place: Place) -> PlaceView:
         """The material at a free place of a space."""

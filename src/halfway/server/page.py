@@ -48,7 +48,7 @@ class Page:
         HalfwayError
             When this installation has none.
         """
-        _refresh(Path(__file__).parents[3])
+        refresh(Path(__file__).parents[3])
         root = files("halfway.server") / "page"
         if not (root / "index.html").is_file():
             raise HalfwayError(
@@ -57,7 +57,7 @@ class Page:
         return cls(dict(_walk(root, "")))
 
 
-def _refresh(root: Path) -> None:
+def refresh(root: Path) -> None:
     """Build the page when this is a checkout whose page is absent or old."""
     if not (root / "viewer" / "package.json").is_file() or building.is_current(root):
         return

@@ -1,0 +1,171 @@
+"""The explorer as a widget: the page that ``halfway view`` serves, with its place in the space tied to Python's.
+
+The page asks the kernel for what it shows (see `messages`), and both hold the same traits: whoever changes one, the other
+follows. The recipe is worked out here, from the place, so it is there before the page is, and without it.
+"""
+
+from collections.abc import Sequence
+from importlib.resources import files
+from pathlib import Path
+from typing import Any
+
+import platformdirs
+from anywidget import AnyWidget
+from traitlets import Float, Instance, List, Unicode, default, observe, validate
+
+from ..errors import HalfwayError, SpaceError
+from ..library import DEFAULT_LIBRARY, Library, open_library
+from ..server.app import app_of
+from ..server.explorer import PACES
+from ..server.explorer import Explorer as Answers
+from ..server.page import refresh
+from ..server.schema import Place
+from ..space import SPACES, LinearSpace, Recipe, Route
+from ..tasks import Track, silent
+from .messages import Answerer
+
+USERS_CACHE = platformdirs.user_cache_path("halfway")
+FAVOURITES = ("cherry-235", "gold-metallic-paint")
+"""A pair that shows something, where the library has it."""
+
+
+class Explorer(AnyWidget):
+    """The explorer of a library, to be shown by the last line of a cell.
+
+    Parameters
+    ----------
+    library : str or Library
+        As `open_library` takes it, or one that is open.
+    stops : sequence of str
+        The materials that the route goes through, two or more.
+    t : float
+        Where on the route to begin, in [0, 1].
+    space, pace : str
+        As ``halfway route`` takes them.
+    cache : Path or None
+        Where to keep what is dear to work out; the folder of ``halfway view`` unless told otherwise.
+
+    Attributes
+    ----------
+    space, pace, stops, t : traits
+        Where it is; set them to go elsewhere, and observe them to follow the person.
+    point : trait, list of float or None
+        A free place of the space instead of one on the route: its coordinates as the page has them.
+    recipe : trait, Recipe
+        The material that it shows. Read-only; observe it to follow.
+    route : Route
+        The whole way.
+    library : Library
+        What is explored.
+
+    Examples
+    --------
+    >>> from halfway.notebook import Explorer
+    >>> explorer = Explorer(stops=["teflon", "gold-paint"], space="linear", pace="uniform")
+    >>> explorer.t = 0.25
+    >>> explorer.recipe.to_json()["weights"]
+    {'gold-paint': 0.25, 'teflon': 0.75}
+    """
+
+    space = Unicode().tag(sync=True)
+    pace = Unicode().tag(sync=True)
+    stops = List(Unicode()).tag(sync=True)
+    t = Float().tag(sync=True)
+    point = List(Float(), allow_none=True, default_value=None).tag(sync=True)
+    recipe = Instance(Recipe, read_only=True)
+
+    _esm = Unicode().tag(sync=True)
+    _css = Unicode().tag(sync=True)
+
+    def __init__(
+        self,
+        library: str | Library = DEFAULT_LIBRARY,
+        stops: Sequence[str] = (),
+        *,
+        t: float = 0.5,
+        space: str = SPACES[0],
+        pace: str = PACES[0],
+        cache: Path | None = USERS_CACHE,
+        track: Track = silent,
+    ) -> None:
+        self.library = library if isinstance(library, Library) else open_library(library)
+        self._answers = Answers(self.library, cache=cache, track=track)
+        self._route: Route | None = None
+        place = {"space": space, "pace": pace, "stops": list(stops) or self._favourites(), "t": t}
+        super().__init__(**place)
+        self._answerer = Answerer(app_of(self._answers), self.send)
+        self.on_msg(self._receive)
+
+    @property
+    def route(self) -> Route:
+        """The way through the stops."""
+        way = (self.space, tuple(self.stops), self.pace)
+        # Several traits may change at once, and each of them says so.
+        if self._route is None or (self._route.space, self._route.stops, self._route.pace) != way:
+            self._route = self._answers.way(*way)
+        return self._route
+
+    def _receive(self, _: Any, message: dict[str, Any], __: list[Any]) -> None:
+        self._answerer.receive(message)
+
+    @observe("t")
+    def _leave_the_free_place(self, _: Any) -> None:
+        self.point = None
+
+    @observe("space", "pace", "stops", "t", "point")
+    def _show(self, _: Any) -> None:
+        if self.point is None:
+            recipe = self.route.recipe(self.t)
+        else:
+            place = self._answers.place(Place(space=self.space, point=self.point))
+            recipe = Recipe.from_json(place.recipe.model_dump())
+        self.set_trait("recipe", recipe)
+
+    @validate("space", "pace")
+    def _known(self, proposal: dict[str, Any]) -> str:
+        name, kind = proposal["value"], proposal["trait"].name
+        known = SPACES if kind == "space" else PACES
+        if name not in known:
+            raise SpaceError(f"there is no {kind} {name!r}: expected one of {', '.join(known)}.")
+        return name
+
+    @validate("stops")
+    def _reachable(self, proposal: dict[str, Any]) -> list[str]:
+        stops = proposal["value"]
+        for stop in stops:
+            self.library.index(stop)
+        # The plainest way there says what no way can be.
+        Route.through(LinearSpace(self.library.name, self.library.names), stops)
+        return stops
+
+    @validate("t")
+    def _on_the_route(self, proposal: dict[str, Any]) -> float:
+        t = proposal["value"]
+        if not 0 <= t <= 1:
+            raise SpaceError(
+                f"t = {t:g} is off the route: expected 0 (first stop) to 1 (last stop)."
+            )
+        return t
+
+    @default("_esm")
+    def _module(self) -> str:
+        return _bundled("widget.js")
+
+    @default("_css")
+    def _style(self) -> str:
+        return _bundled("widget.css")
+
+    def _favourites(self) -> list[str]:
+        names = self.library.names
+        return list(FAVOURITES if set(FAVOURITES) <= set(names) else (names[0], names[-1]))
+
+
+def _bundled(name: str) -> str:
+    """A file of the built widget; a checkout builds it when it is absent or old."""
+    refresh(Path(__file__).parents[3])
+    file = files("halfway.notebook") / "bundle" / name
+    if not file.is_file():
+        raise HalfwayError(
+            "this installation of halfway has no notebook widget: install it again from a wheel."
+        )
+    return file.read_text("utf-8")
