@@ -1,4 +1,4 @@
-"""Realism against detour, over the option ``--detour``: the figure and the table of the page on navigation.
+"""Realism against detour, over the options ``--detour`` and ``-k``: the figure and the tables of the page on navigation.
 
 ``python docs/navigation.py merl_nbrdf.zip``
 """
@@ -15,6 +15,8 @@ from halfway.space import Bench, LinearSpace, PaperSpace, anchored_space, evalua
 from halfway.space.evaluation import uniform
 
 DETOURS = (1.0, 1.02, 1.05, 1.1, 1.2, 1.5, np.inf)
+COMPONENTS = (1, 2, 4, 6, 8)
+"""Numbers of joint scores in place of 3, without a bound on the detour."""
 N_PAIRS = 200
 OUTPUT = Path(__file__).parent / "images" / "realism-and-detour.svg"
 
@@ -25,6 +27,9 @@ def main(where: str) -> None:
     cache = cache_folder()
     bench = Bench.fit(library, cache=cache)
     spaces = {f"anchored, {d:g}": anchored_space(library, detour=d, cache=cache) for d in DETOURS}
+    for k in COMPONENTS:
+        made = anchored_space(library, n_components=k, detour=np.inf, cache=cache)
+        spaces[f"{k} scores and body colour, inf"] = made
     spaces["linear"] = LinearSpace(library.name, library.names)
     spaces["paper"] = PaperSpace.fit(library, Pca.fit(library, cache=cache))
     rows: dict[str, tuple[float, float]] = {}

@@ -7,6 +7,7 @@ import sys
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
+from PIL import Image
 from strategies import random_tables
 
 from halfway import TabularBrdf
@@ -294,3 +295,19 @@ def test_the_papers_fine_list_of_t():
     ts = arguments.parse_t("0.0001:1:0.0001")
     assert (len(ts), ts[0], ts[-1]) == (10_000, 0.0001, 1)
     np.testing.assert_array_equal(ts, np.arange(1, 10_001) / 10_000)
+
+
+def test_two_routes_stand_below_each_other_and_side_by_side_when_they_move(run, lib):
+    for name in ("one", "two"):
+        code, _, talk = run(
+            *f"route {lib} material-0 material-1 -n 3 --space linear --pace uniform -o {name}".split()
+        )
+        assert code == 0, talk
+    for name in ("rows.png", "moving.webp"):
+        words = f"render one two -o {name} --scene sphere --size 40 --spp 4"
+        code, _, talk = run(*words.split())
+        assert code == 0, talk
+    with Image.open("rows.png") as rows, Image.open("moving.webp") as moving:
+        assert rows.width == 3 * 40 + 2 * 2
+        assert rows.height > 2 * 40
+        assert (moving.n_frames, moving.width) == (3, 2 * 40 + 2)

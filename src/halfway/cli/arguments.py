@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..errors import HalfwayError
+from ..places import Place, to_place
 
 if TYPE_CHECKING:
     from ..library import Library
@@ -29,10 +30,10 @@ def split_library(words: Sequence[str]) -> tuple[str, list[str]]:
 
 def is_library(word: str) -> bool:
     """Whether a word names a library rather than a material."""
-    path = Path(word)
+    path = to_place(word)
     return (
         word.startswith("builtin:")
-        or path.suffix in (".brdflib", ".zip")
+        or path.suffix in (".brdflib", ".brdfc", ".zip")
         or (path / "library.json").exists()
     )
 
@@ -68,7 +69,7 @@ def parse_point(text: str) -> np.ndarray:
         ) from None
 
 
-def read_json(path: Path) -> Any:
+def read_json(path: Place) -> Any:
     """The JSON document in a file."""
     try:
         return json.loads(path.read_text())
@@ -93,7 +94,7 @@ def to_recipe(words: Sequence[str]) -> tuple["Library", "Recipe"]:
     (what,) = rest
     document = _recipe_document(what)
     if document is not None:
-        named = document.get("library") if len(words) == 1 else None
+        named = address(document) if len(words) == 1 else None
         library = open_library(named or where)
         return library, Recipe.from_json(document, library=library.name)
     library = open_library(where)
@@ -102,6 +103,11 @@ def to_recipe(words: Sequence[str]) -> tuple["Library", "Recipe"]:
     for name in recipe.names:
         library.index(name)
     return library, recipe
+
+
+def address(document: dict[str, Any]) -> str | None:
+    """Where the library of a route's or a recipe's document is."""
+    return document.get("library_address") or document.get("library")
 
 
 def _recipe_document(what: str) -> dict[str, Any] | None:
@@ -120,4 +126,4 @@ def _recipe_document(what: str) -> dict[str, Any] | None:
         raise ArgumentError(
             f"{path} holds {len(recipes)} recipes: name one, {path}:0 to {path}:{len(recipes) - 1}."
         )
-    return {"library": document.get("library"), **recipes[int(index)]}
+    return {"library": address(document), **recipes[int(index)]}

@@ -11,8 +11,10 @@ from ..brdf import Brdf, TabularBrdf, tabulate
 from ..formats import read_brdf
 from ..halfdiff import MERL
 from ..library import Library, open_library
+from ..places import SCHEME, Place, RemotePath, to_place
 from ..space import Mixer, Recipe
-from .arguments import ArgumentError, is_library, read_json, to_recipe
+from .arguments import ArgumentError, address, is_library, read_json, to_recipe
+from .console import say
 
 FILES = (".binary", ".bsdf", ".h5")
 """Suffixes that nobody means a material's name by."""
@@ -63,7 +65,7 @@ def file_names(materials: Sequence[Material], suffix: str) -> list[str]:
 
 
 def _materials(word: str) -> Iterator[Material]:
-    path = Path(word)
+    path = to_place(word)
     if (path / "recipes.json").exists():
         yield from _route(path / "recipes.json")
     elif path.name == "recipes.json" and path.exists():
@@ -72,11 +74,15 @@ def _materials(word: str) -> Iterator[Material]:
         library = open_library(word)
         for name in library.names:
             yield Material(name, partial(library.brdf, name), _of(library, {name: 1.0}), name)
-    elif path.is_dir():
+    elif isinstance(path, RemotePath) and path.exists():
+        raise ArgumentError(
+            f"{path} is no library and no route: expected one of these at a URL. Copy the file here first."
+        )
+    elif isinstance(path, Path) and path.is_dir():
         yield from _folder(path)
     elif path.suffix == ".json" or ".json:" in word:
         yield _mixed([word])
-    elif path.exists():
+    elif isinstance(path, Path) and path.exists():
         yield _file(path)
     elif path.suffix in FILES:
         raise ArgumentError(f"there is no file {path}: see where you are, or name a material.")
@@ -86,7 +92,7 @@ def _materials(word: str) -> Iterator[Material]:
 
 
 def _names_no_material(word: str) -> bool:
-    return ":" not in word.removeprefix("builtin:")
+    return ":" not in word.removeprefix("builtin:").rpartition(SCHEME)[2]
 
 
 def _mixed(words: Sequence[str]) -> Material:
@@ -117,10 +123,10 @@ def _folder(folder: Path) -> Iterator[Material]:
     yield from map(_file, files)
 
 
-def _route(path: Path) -> Iterator[Material]:
+def _route(path: Place) -> Iterator[Material]:
     document = read_json(path)
     try:
-        library = open_library(document["library"])
+        library = open_library(address(document) or document["library"])
         entries = [
             (f"{entry['t']:.2f}", Recipe.of(library.name, entry["weights"]))
             for entry in document["recipes"]
@@ -129,6 +135,10 @@ def _route(path: Path) -> Iterator[Material]:
         raise ArgumentError(
             f"{path} is no route: expected recipes.json as `halfway route` writes it."
         ) from None
+    if document.get("library_checksum", library.checksum) != library.checksum:
+        say(
+            f"note: {library.address} has changed since {path} was written: these are other tables. Make the route again."
+        )
     mixer = Mixer(library)
     digits = max(3, len(str(len(entries) - 1)))
     for i, (label, recipe) in enumerate(entries):

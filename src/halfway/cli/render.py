@@ -36,21 +36,22 @@ def render(
 ) -> None:
     """Render materials in Mitsuba 3.
 
-    With direct light (teapot, spheres, sphere) a route costs one render per measured material it touches. Into a
-    folder, the same command again goes on where it stopped.
+    With direct light (teapot, spheres, sphere) a route costs one render per measured material it touches. Routes of one
+    length stand below each other, and side by side in an animation. Into a folder, the same command again goes on
+    where it stopped.
 
     \b
     halfway render gold-paint teflon -o two.png
     halfway render fabric -o fabric.webp --scene spheres
+    halfway render fabric fabric-paper -o compared.webp
     halfway render fabric -o frames --format exr
     halfway render new.binary -o new.png --size 1024 --quality final
     halfway render teflon chrome gold-paint -o three.png --scene trio
     """
     from halfway.render import QUALITY, Renderer, pictures
 
-    from .materials import spread, to_materials
-
-    materials = to_materials(words)
+    rows = _in_rows(words)
+    materials = [material for row in rows for material in row]
     default = QUALITY[quality]
     renderer = Renderer(
         scene,
@@ -65,13 +66,20 @@ def render(
     if not output.suffix:
         _render_folder(output, renderer, materials, format, exposure)
     elif output.suffix in pictures.ANIMATED and len(materials) > 1:
-        paint = _painter(renderer, materials)
-        frames = map(paint, track(materials, "Frames", len(materials)))
-        pictures.animate(output, frames, fps=fps, exposure=exposure)
-        say(f"{output}: {len(materials)} frames of the {scene} scene")
+        _animate(output, renderer, rows, words, fps, exposure)
     else:
-        chosen = materials if layout is Layout.SHEET else spread(materials, n)
-        _render_image(output, renderer, chosen, layout, exposure)
+        most = None if layout is Layout.SHEET else n
+        _render_image(output, renderer, rows, words, most, exposure)
+
+
+def _in_rows(words: Sequence[str]) -> list[list["Material"]]:
+    """The materials of each word where all stand for equally many, such as routes; else all of them in one row."""
+    from .materials import to_materials
+
+    rows = [to_materials([word]) for word in words]
+    if len(rows[0]) > 1 and len({len(row) for row in rows}) == 1:
+        return rows
+    return [[material for row in rows for material in row]]
 
 
 def _render_folder(
@@ -96,18 +104,54 @@ def _render_folder(
     say(f"{folder}: {written.n_written:,} {pictures} of the {renderer.scene.name} scene{kept}")
 
 
+def _animate(
+    output: Path,
+    renderer: "Renderer",
+    rows: Sequence[Sequence["Material"]],
+    words: Sequence[str],
+    fps: int,
+    exposure: float,
+) -> None:
+    """A frame for each material of a row, beside those of the other rows."""
+    from halfway.render import pictures
+
+    paint = _painter(renderer, [material for row in rows for material in row])
+    columns = list(zip(*rows, strict=True))
+    labels = [Path(word).name for word in words]
+
+    def frame(column: Sequence["Material"]) -> "np.ndarray":
+        images = [paint(material) for material in column]
+        one = len(images) == 1
+        return images[0] if one else pictures.strip(images, labels=labels, exposure=exposure)
+
+    frames = map(frame, track(columns, "Frames", len(columns)))
+    pictures.animate(output, frames, fps=fps, exposure=exposure)
+    say(f"{output}: {len(columns)} frames of the {renderer.scene.name} scene")
+
+
 def _render_image(
     output: Path,
     renderer: "Renderer",
-    materials: Sequence["Material"],
-    layout: Layout,
+    rows: Sequence[Sequence["Material"]],
+    words: Sequence[str],
+    most: int | None,
     exposure: float,
 ) -> None:
-    """One picture; several materials are dressed in together where the scene takes so many, else laid side by side."""
+    """One picture: materials dressed in together where the scene takes so many, else in rows of at most ``most``."""
     from halfway.render import pictures
 
-    n_objects = renderer.scene.n_materials
-    if len(materials) > 1 and len(materials) == n_objects:
+    from .materials import spread
+
+    rows = [spread(row, most) if most else row for row in rows]
+    materials = [material for row in rows for material in row]
+    labels = [material.label for material in materials]
+    if len(rows) > 1:
+        labels = [
+            f"{Path(word).name}, {material.label}"
+            for word, row in zip(words, rows, strict=True)
+            for material in row
+        ]
+    if len(materials) > 1 and len(materials) == renderer.scene.n_materials:
         images = [renderer.picture([material.table() for material in materials])]
     else:
         paint = _painter(renderer, materials)
@@ -115,9 +159,9 @@ def _render_image(
     if len(images) == 1:
         pictures.write(output, images[0], exposure=exposure)
     else:
-        arrange = pictures.strip if layout is Layout.STRIP else pictures.sheet
-        labels = [material.label for material in materials]
-        pictures.write(output, arrange(images, labels=labels, exposure=exposure))
+        columns = len(rows[0]) if most or len(rows) > 1 else None
+        tiles = pictures.sheet(images, labels=labels, columns=columns, exposure=exposure)
+        pictures.write(output, tiles)
     what = "picture" if len(images) == 1 else "pictures"
     say(f"{output}: {len(images)} {what} of the {renderer.scene.name} scene")
 

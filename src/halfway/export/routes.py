@@ -68,7 +68,11 @@ def write_route(
         When the folder cannot be written or has no room, another run works in it, or a file in it is in the way.
     """
     folder = absolute(folder)  # workers may be elsewhere
-    document = {**route.to_json(ts), "library_checksum": library.checksum}
+    document = {
+        **route.to_json(ts),
+        "library_address": library.address,
+        "library_checksum": library.checksum,
+    }
     text = json.dumps(document)
     recipes = route.recipes(ts)
     tables = _tables(format, recipes, library)

@@ -44,6 +44,8 @@ _ORDER = count()
 class Library(ABC):
     """A set of materials on one grid."""
 
+    n_channels = 3
+    """Colour channels, each analysed by itself."""
     name: str
     names: tuple[str, ...]
     grid: Grid
@@ -53,8 +55,13 @@ class Library(ABC):
     material_checksums: tuple[str, ...]
     """Of each material alone: hex digits that change when its name, a sample of it, or the grid changes."""
 
+    @property
+    def address(self) -> str:
+        """What `open_library` finds it by, from any folder of this machine."""
+        return self.name
+
     def __new__(cls: type[L], *_: Any, **__: Any) -> L:
-        library = super().__new__(cls)
+        library = object.__new__(cls)
         _IN_USE[next(_ORDER)] = library
         return library
 

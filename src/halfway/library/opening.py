@@ -3,6 +3,7 @@
 builtin:merl-abc        published fits that come with the package
 folder.brdflib          a stored library, here or at a URL such as s3://bucket/folder.brdflib
 merl_nbrdf.zip          an archive of neural fits, decoded when asked for
+library.brdfc           a compact library: principal components, reconstructed when asked for
 """
 
 import zipfile
@@ -12,6 +13,7 @@ from ..errors import LibraryError
 from ..formats import read_nbrdf_archive
 from ..models import BUILTIN, builtin
 from ..places import Place, RemotePath, to_place
+from .compact import CompactLibrary, is_compact
 from .library import Library, Origin, in_use
 from .procedural import ProceduralLibrary
 from .stored import StoredLibrary
@@ -36,14 +38,14 @@ def open_library(where: str | Place) -> Library:
     if isinstance(path, RemotePath) or path.is_dir():
         return StoredLibrary(path)
     if zipfile.is_zipfile(path):
-        return _open_archive(path)
+        return CompactLibrary(path) if is_compact(path) else _open_archive(path)
     if path.exists():
         raise LibraryError(
             f"{path} is one file, not a library: `halfway library build {path} OTHER... -o NAME.brdflib` "
             "makes a library of files."
         )
     raise LibraryError(
-        f"there is no library {str(where)!r}: expected a .brdflib folder, an archive of neural fits, or one of "
+        f"there is no library {str(where)!r}: expected a .brdflib folder, a .brdfc file, an archive of neural fits, or one of "
         + ", ".join(f"{BUILTIN_PREFIX}{name}" for name in BUILTIN)
         + "."
     )
@@ -64,4 +66,4 @@ def _open_archive(path: Path) -> Library:
         source="A. Sztrajman et al., Neural BRDF Representation and Importance Sampling, CGF 40(6), 2021",
         licence="MIT",
     )
-    return ProceduralLibrary(str(path), brdfs, origin=origin)
+    return ProceduralLibrary(str(path), brdfs, origin=origin, path=path)

@@ -6,6 +6,7 @@ because that is what a BRDF computes cheaply, or parts of such rows where there 
 
 import hashlib
 from collections.abc import Mapping
+from pathlib import Path
 
 import numpy as np
 
@@ -25,6 +26,8 @@ class ProceduralLibrary(Library):
         What the library is called, as `open_library` understands it.
     brdfs : mapping of str to Brdf
         The materials, by name.
+    path : path, optional
+        Of the file that they are from.
     """
 
     def __init__(
@@ -34,8 +37,10 @@ class ProceduralLibrary(Library):
         *,
         grid: Grid = MERL,
         origin: Origin = Origin(),  # noqa: B008 (frozen)
+        path: Path | None = None,
     ) -> None:
         self.name = name
+        self.path = path
         self.names = tuple(brdfs)
         self.grid = grid
         self.origin = origin
@@ -51,6 +56,10 @@ class ProceduralLibrary(Library):
         )
         parts = grid_parts(grid.shape, columns_per_block(len(self)))
         self._parts = {(columns.start, columns.stop): part for columns, part in parts}
+
+    @property
+    def address(self) -> str:
+        return str(self.path.absolute()) if self.path else self.name
 
     def row(self, i: int) -> Table:
         return self._brdfs[i].sample_rows(self.grid, slice(None)).reshape(3, -1)

@@ -83,6 +83,10 @@ class StoredLibrary(Library):
         )
         self._start = self._check_tables()
 
+    @property
+    def address(self) -> str:
+        return str(absolute(self.path))
+
     def __reduce__(self) -> tuple[Any, ...]:
         """A library travels as its path."""
         return _opened, (absolute(self.path), self.checksum)
