@@ -108,6 +108,15 @@ def test_a_material_may_tell_left_from_right_without_breaking_a_law():
     assert check(Woven(), grid=GRID).bilateral_error > 0.05
 
 
+def test_a_card_says_in_one_line_what_matters():
+    sound, broken = check(table(1 / np.pi)), check(table(1.1 / np.pi))
+    assert sound.summary == (
+        f"reflects at most {sound.max_albedo:.3f} (grazing {sound.max_albedo_grazing:.3f}), "
+        f"{sound.unmeasured:.1%} unmeasured, dynamic range 1"
+    )
+    assert broken.summary == "; ".join(broken.broken)
+
+
 def test_holes_and_samples_below_the_horizon_are_counted():
     card = check(changed((slice(None), *INSIDE[1:]), np.nan))
     assert (card.n_holes, card.n_below_horizon, card.mask_is_the_grids) == (1, 0, False)

@@ -79,6 +79,18 @@ class ValidityCard:
         """Whether no law is broken."""
         return not self.broken
 
+    @property
+    def summary(self) -> str:
+        """One line: the laws it breaks, or what is worth knowing of a sound one."""
+        if self.broken:
+            return "; ".join(self.broken)
+        width = self.highlight_width_degrees
+        peak = "" if width is None else f", highlight {width:.2g} degrees wide"
+        return (
+            f"reflects at most {self.max_albedo:.3f} (grazing {self.max_albedo_grazing:.3f}), "
+            f"{self.unmeasured:.1%} unmeasured, dynamic range {self.dynamic_range:.3g}{peak}"
+        )
+
     def as_json(self) -> dict[str, Any]:
         """The card for a program to read; what is infinite or not a number becomes None."""
         card = {

@@ -38,52 +38,47 @@ def check(
     halfway check damaged.binary --repair -o sound.binary
     """
     from halfway.brdf import check as card_of
-    from halfway.brdf import repair as repaired
-    from halfway.formats import write_brdf
 
-    from .arguments import ArgumentError
     from .materials import to_materials
 
     materials = to_materials(words)
     if repair:
-        if output is None or len(materials) != 1:
-            raise ArgumentError("--repair takes one FILE and the file to write, with -o.")
-        sound = repaired(materials[0].table())
-        write_brdf(output, sound.table)
-        for change in sound.changes or ("Nothing was wrong.",):
-            say(change)
+        _repair(materials, output)
         return
+    names = words if len(words) == len(materials) else [material.label for material in materials]
+    tracked = track(materials, "Checking", len(materials))
     cards = [
-        (word, card_of(material.table()))
-        for word, material in zip(
-            _sources(words, materials), track(materials, "Checking", len(materials)), strict=True
-        )
+        (name, card_of(material.table())) for name, material in zip(names, tracked, strict=True)
     ]
-    if as_json:
-        print(
-            json.dumps(
-                [{"format": 1, "file": file, **card.as_json()} for file, card in cards], indent=1
-            )
-        )
-    else:
-        for file, card in cards:
-            print(f"{'sound ' if card.ok else 'BROKEN'}  {file}: {_line(card)}")
+    print(_as_json(cards) if as_json else _as_lines(cards))
     n_broken = sum(not card.ok for _, card in cards)
     if n_broken:
         say(f"{n_broken} of {len(cards)} break a law")
         raise typer.Exit(1)
 
 
-def _sources(words: list[str], materials: list["Material"]) -> list[str]:
-    return words if len(words) == len(materials) else [material.label for material in materials]
+def _repair(materials: list["Material"], output: Path | None) -> None:
+    """Write the nearest sound table, and say what was changed."""
+    from halfway.brdf import repair as repaired
+    from halfway.formats import write_brdf
+
+    from .arguments import ArgumentError
+
+    if output is None or len(materials) != 1:
+        raise ArgumentError("--repair takes one FILE and the file to write, with -o.")
+    sound = repaired(materials[0].table())
+    write_brdf(output, sound.table)
+    for change in sound.changes or ("Nothing was wrong.",):
+        say(change)
 
 
-def _line(card: "ValidityCard") -> str:
-    if card.broken:
-        return "; ".join(card.broken)
-    width = card.highlight_width_degrees
-    peak = "" if width is None else f", highlight {width:.2g} degrees wide"
-    return (
-        f"reflects at most {card.max_albedo:.3f} (grazing {card.max_albedo_grazing:.3f}), "
-        f"{card.unmeasured:.1%} unmeasured, dynamic range {card.dynamic_range:.3g}{peak}"
+def _as_json(cards: "list[tuple[str, ValidityCard]]") -> str:
+    return json.dumps(
+        [{"format": 1, "file": file, **card.as_json()} for file, card in cards], indent=1
+    )
+
+
+def _as_lines(cards: "list[tuple[str, ValidityCard]]") -> str:
+    return "\n".join(
+        f"{'sound ' if card.ok else 'BROKEN'}  {file}: {card.summary}" for file, card in cards
     )
