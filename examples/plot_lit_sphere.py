@@ -2,7 +2,7 @@
 A material on a lit sphere
 ==========================
 
-The smallest picture of a material is a sphere under a few lights, evaluated straight from the table: no renderer is needed.
+The smallest picture of a material: a sphere under a few lights, straight from its table. No renderer is needed.
 """
 
 import matplotlib.pyplot as plt
@@ -16,16 +16,15 @@ library = open_library("builtin:merl-abc")
 names = ("cherry-235", "blue-fabric", "gold-paint", "chrome")
 
 # %%
-# The picture is a linear function of the table: one sparse matrix per scene and grid, which serves every material.
+# The picture is a linear function of the table: one sparse matrix per scene and grid serves every material.
 
 operator = SphereOperator.of(PACING_SCENE, library.grid)
-mask = PACING_SCENE.mask()
+on_sphere = PACING_SCENE.mask()
 
 figure, axes = plt.subplots(1, len(names), figsize=(9, 2.6), layout="constrained")
 for ax, name in zip(axes, names, strict=True):
-    picture = np.full((*mask.shape, 3), 0.18, np.float32)
-    picture[mask] = operator.picture(library.row(library.index(name)))
-    ax.imshow(to_srgb(picture))
+    picture = np.full((*on_sphere.shape, 3), 255, np.uint8)
+    picture[on_sphere] = to_srgb(operator.picture(library.row(library.index(name))))
+    ax.imshow(picture, interpolation="bicubic")
     ax.set_title(name)
     ax.axis("off")
-plt.show()
