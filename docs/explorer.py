@@ -8,7 +8,7 @@ import argparse
 import shutil
 import threading
 from collections.abc import Generator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import replace
 from pathlib import Path
 
@@ -16,6 +16,7 @@ import numpy as np
 import uvicorn
 from PIL import Image
 from playwright.sync_api import Browser, Page, sync_playwright
+from playwright.sync_api import TimeoutError as TooLate
 
 from halfway import open_library
 from halfway.cli.console import cache_folder
@@ -145,7 +146,9 @@ def take(browser: Browser, address: str, name: str) -> None:
     (width, height), scheme, fragment = SCREENS[name]
     page = browser.new_page(viewport={"width": width, "height": height}, color_scheme=scheme)  # pyright: ignore[reportArgumentType]
     page.goto(address + fragment)
-    page.wait_for_selector(".material[data-settled=true]", timeout=600_000)
+    with suppress(TooLate):
+        # On a slow machine a picture that still gets better will do.
+        page.wait_for_selector(".material[data-settled=true]", timeout=90_000)
     page.screenshot(path=IMAGES / f"{name}.png", full_page=True)
     page.close()
     Image.open(IMAGES / f"{name}.png").convert("RGB").save(IMAGES / f"{name}.webp", quality=86)

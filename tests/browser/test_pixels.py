@@ -3,7 +3,7 @@
 The camera, the sphere and the lights are those of `halfway.render.scenes`; the page shows 8-bit sRGB.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
@@ -11,6 +11,7 @@ from conftest import Explorer  # pyright: ignore[reportMissingImports]
 
 from halfway.brdf import TabularBrdf, hemisphere
 from halfway.library import ProceduralLibrary
+from halfway.render import Renderer
 from halfway.render.pictures import to_srgb
 from halfway.render.scenes import SCENES
 from halfway.render.studio import studio
@@ -176,3 +177,31 @@ def test_studio(explorer: Explorer, library: ProceduralLibrary, name: str) -> No
     # A mirror shows the edges of the lamps, where a few pixels' mean is no point's value.
     assert np.median(error) < 1
     assert np.quantile(error, 0.8) < 2.5
+
+
+@pytest.mark.parametrize("name", MATERIALS)
+@pytest.mark.parametrize("light", ["points", "studio"])
+def test_the_page_and_mitsuba_show_the_same(
+    explorer: Explorer, library: ProceduralLibrary, name: str, light: str
+) -> None:
+    explorer.page.set_viewport_size({"width": 460, "height": 560})
+    explorer.open(f"#space=linear&stops={name},teflon&t=0&light={light}&exposure=-1")
+    explorer.wait_until_settled()
+    shown = picture(explorer).bytes
+    height, width = shown.shape[:2]
+    renderer = Renderer(
+        SCENE if light == "points" else replace(SCENE, points=()), size=(width, height), spp=256
+    )
+    if not renderer.exact:
+        pytest.skip("needs Mitsuba with LLVM, which looks tables up as they are")
+    rendered = (renderer.picture(library.brdf(name)) / 2).clip(0, 1)
+    coded = shown[..., :3] / 255
+    linear = np.where(coded <= 0.04045, coded / 12.92, ((coded + 0.055) / 1.055) ** 2.4)
+    # The outermost pixels are partly beside the sphere.
+    inside = (
+        (shown[..., 3] == 255)
+        & np.roll(shown[..., 3] == 255, 1, 0)
+        & np.roll(shown[..., 3] == 255, 1, 1)
+    )
+    difference = np.abs(linear - rendered)[inside].mean() / rendered[inside].mean()
+    assert difference < 0.025

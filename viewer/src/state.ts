@@ -236,6 +236,6 @@ export class Actions {
 /** A pair that shows something, where the library has it. */
 function defaultStops({ materials }: LibrarySummary): string[] {
   const names = materials.map(({ name }) => name);
-  const wished = ["cherry-235", "gold-metallic-paint"].filter((name) => names.includes(name));
+  const wished = ["gold-metallic-paint", "blue-acrylic"].filter((name) => names.includes(name));
   return wished.length === 2 ? wished : [names[0]!, names.at(-1)!];
 }

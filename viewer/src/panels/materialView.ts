@@ -186,8 +186,10 @@ function paint(
     ({ recipe, otherRecipe }) => [recipe, otherRecipe] as const,
     ([recipe, otherRecipe]) => {
       const needed = [...new Set([...recipe, ...otherRecipe].map(({ name }) => name))];
-      // Before the route has come, its stops are a good guess.
-      tables.want(needed, needed.length ? comingUp() : store.get().stops);
+      const { stops, t } = store.get();
+      // Before the route has come, the stops beside t are a good guess.
+      const leg = Math.min(Math.floor(t * (stops.length - 1)), stops.length - 2);
+      tables.want(needed, needed.length ? comingUp() : stops.slice(leg, leg + 2));
     },
   );
   tables.onProgress = () => loop.goOn();

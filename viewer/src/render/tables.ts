@@ -59,8 +59,7 @@ export class Tables {
   /** All that are needed now, and some of those that come next, both in order of urgency; what is not among them may go. */
   want(needed: readonly string[], ahead: readonly string[] = []): void {
     const next = ahead.filter((name) => !needed.includes(name));
-    const missing = next.filter((name) => !this.loaded.has(name)).slice(0, MAX_AHEAD);
-    const kept = next.filter((name) => this.loaded.has(name) || missing.includes(name));
+    const kept = next.filter((name, i) => i < MAX_AHEAD || this.loaded.has(name));
     this.wanted = [...needed, ...kept].slice(0, Math.max(MAX_TABLES, needed.length));
     this.fetchNext();
   }

@@ -1,0 +1,104 @@
+"""The explorer's times, in a headless Chromium that draws in software.
+
+    start      from the command to an interactive page, the library's cache filled; Chromium runs already
+    picture    from the last table of the first recipe to the first picture
+    drag       a frame while t moves inside a simplex, the material at about 400 x 400
+
+``pytest benchmarks/bench_explorer.py -s --benchmark-only`` prints them; `make bench` runs it too.
+"""
+
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Generator, Iterator
+from contextlib import contextmanager
+
+import pytest
+from playwright.sync_api import Browser, sync_playwright
+
+FLAGS = ["--no-sandbox", "--disable-gpu", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
+VIEWPORT = {"width": 1190, "height": 700}
+"""Makes the material's panel about 400 x 400."""
+N_FRAMES = 120
+DRAG = """async (n) => {
+  const input = document.querySelector("[name=t]");
+  const frame = () => new Promise(requestAnimationFrame);
+  const times = [];
+  let last = await frame();
+  for (let i = 0; i < n; i++) {
+    input.value = String(0.5 + 0.2 * Math.sin(i / 15));
+    input.dispatchEvent(new Event("input"));
+    const now = await frame();
+    times.push(now - last);
+    last = now;
+  }
+  const { width, height } = document.querySelector(".live");
+  return { times: times.sort((a, b) => a - b), width, height };
+}"""
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Browser]:
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=shutil.which("chromium"), args=FLAGS)
+        yield browser
+        browser.close()
+
+
+@contextmanager
+def viewing() -> Generator[tuple[str, float]]:
+    """`halfway view` as a person starts it: its address, and when it was started."""
+    start = time.perf_counter()
+    command = [sys.executable, "-m", "halfway", "view", "--no-browser", "--port", "0"]
+    process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
+    assert process.stderr is not None
+    address = next(line.split()[1] for line in process.stderr if "http://" in line)
+    try:
+        yield address, start
+    finally:
+        process.send_signal(signal.SIGINT)
+        process.wait(20)
+
+
+def measure(browser: Browser, light: str) -> dict[str, float]:
+    """Seconds, and milliseconds a frame."""
+    page = browser.new_page(viewport=VIEWPORT)  # pyright: ignore[reportArgumentType]
+    arrived: list[float] = []
+    page.on(
+        "requestfinished",
+        lambda request: "/api/tables/" in request.url and arrived.append(time.perf_counter()),
+    )
+    with viewing() as (address, start):
+        page.goto(f"{address}#stops=cherry-235,gold-metallic-paint&t=0.5&light={light}")
+        page.wait_for_selector("#app.ready .recipe .name")
+        ready = time.perf_counter()
+        page.wait_for_selector(".material[data-ready=true]")
+        picture = time.perf_counter()
+        needed = len(page.locator(".recipe .name").all())
+        page.wait_for_function(
+            "() => Number(document.querySelector('.material').dataset.samples) > 16"
+        )
+        drag = page.evaluate(DRAG, N_FRAMES)
+    page.close()
+    times = drag["times"]
+    return {
+        "start, s": ready - start,
+        "picture, s": max(0.0, picture - sorted(arrived)[min(needed, len(arrived)) - 1]),
+        "drag, ms": times[len(times) // 2],
+        "drag, 90th percentile, ms": times[int(0.9 * len(times))],
+        "width": drag["width"],
+        "height": drag["height"],
+    }
+
+
+@pytest.mark.parametrize("light", ["points", "studio"])
+def test_explorer(benchmark, browser: Browser, light: str) -> None:
+    # Once before, so that the library's cache is filled.
+    with viewing() as (address, _):
+        browser.new_page().goto(address)
+    found = benchmark.pedantic(measure, (browser, light), rounds=1)
+    print(f"\n\n{light}")
+    for name, value in found.items():
+        print(f"{name:28s} {value:8.2f}")

@@ -1,0 +1,179 @@
+"""What the panels show: numbers of the BRDF, a person's own mesh, what is compared, places outside the hull."""
+
+import json
+
+import numpy as np
+import pytest
+from conftest import Explorer  # pyright: ignore[reportMissingImports]
+
+from halfway.brdf import directional_albedo
+from halfway.library import ProceduralLibrary
+from halfway.space import Recipe, mix
+
+PYRAMID = b"v 0 2 0\nv 1 0 1\nv 1 0 -1\nv -1 0 -1\nv -1 0 1\nf 1 2 3\nf 1 3 4\nf 1 4 5\nf 1 5 2\nf 5 4 3 2\n"
+DRAWN = """() => {
+  const canvas = document.querySelector(".live");
+  const copy = new OffscreenCanvas(canvas.width, canvas.height).getContext("2d");
+  copy.drawImage(canvas, 0, 0);
+  const { data } = copy.getImageData(0, 0, canvas.width, canvas.height);
+  let covered = 0;
+  for (let i = 3; i < data.length; i += 4) covered += data[i] === 255;
+  return covered / (canvas.width * canvas.height);
+}"""
+
+
+def numbers_at(explorer: Explorer, view: str, x: float, y: float) -> list[str]:
+    """What the BRDF panel says under the pointer, at shares of the plot."""
+    explorer.page.locator(f".brdf [data-value={view}]").click()
+    plot = explorer.page.locator(".brdf canvas")
+    # Until the samples are made there is nothing to read.
+    explorer.page.wait_for_function(
+        "() => document.querySelector('.reading').textContent.startsWith('point')"
+    )
+    plot.scroll_into_view_if_needed()
+    box = plot.bounding_box()
+    assert box is not None
+    explorer.page.mouse.move(box["x"] + x * box["width"], box["y"] + y * box["height"])
+    explorer.page.wait_for_selector(".reading .r")
+    return explorer.page.locator(".reading span span").all_text_contents()
+
+
+def test_the_albedo_under_the_pointer_is_that_of_the_mixed_table(
+    explorer: Explorer, library: ProceduralLibrary
+) -> None:
+    explorer.open("#space=linear&pace=uniform&stops=cherry-235,gold-paint&t=0.25&light=points")
+    explorer.wait_for_picture(1)
+    angle, *shown = numbers_at(explorer, "albedo", 0.6, 0.5)
+    recipe = Recipe("browser", ("cherry-235", "gold-paint"), np.array([[0.75, 0.25]] * 3))
+    theta_i = np.radians(float(angle.removeprefix("θi ").removesuffix("°")))
+    expected = directional_albedo(mix(library, recipe), theta_i)
+    # Half floats and three digits; the page takes fewer nodes in azimuth.
+    np.testing.assert_allclose([float(x) for x in shown], expected, rtol=0.005)
+
+
+@pytest.mark.parametrize("view", ["lobes", "slice"])
+def test_numbers_are_under_the_pointer_in_every_scale(explorer: Explorer, view: str) -> None:
+    explorer.open("#space=linear&stops=cherry-235,gold-paint&t=0&light=points")
+    explorer.wait_for_picture(1)
+    first = numbers_at(explorer, view, 0.55, 0.5)
+    assert first[0].startswith("θ")
+    for scale in ("log", "linear", "cube root"):
+        explorer.page.get_by_label("Scale").select_option(scale)
+        plot = explorer.page.locator(".brdf canvas").bounding_box()
+        assert plot is not None
+        explorer.page.mouse.move(plot["x"] + 0.55 * plot["width"], plot["y"] + 0.5 * plot["height"])
+        explorer.page.wait_for_selector(".reading .r")
+        assert explorer.page.locator(".reading span span").all_text_contents() == first
+
+
+def test_a_mesh_of_one_s_own_is_lit(explorer: Explorer) -> None:
+    explorer.open("#space=linear&stops=teflon,chrome&t=0&light=points")
+    explorer.wait_for_picture(1)
+    with explorer.page.expect_file_chooser() as chooser:
+        explorer.page.locator("[data-value=mesh]").click()
+    chooser.value.set_files({"name": "pyramid.obj", "mimeType": "text/plain", "buffer": PYRAMID})
+    explorer.page.wait_for_selector("[data-value=mesh][aria-pressed=true]")
+    explorer.wait_until_settled()
+    assert 0.05 < explorer.page.evaluate(DRAWN) < 0.5
+    explorer.page.locator("input[type=file]").set_input_files(
+        {"name": "notes.obj", "mimeType": "text/plain", "buffer": b"nothing"}
+    )
+    explorer.page.wait_for_selector(".problem:not([hidden])")
+    said = explorer.page.locator(".problem").inner_text()
+    assert said.startswith("notes.obj has no triangles: expected a mesh.")
+
+
+def test_a_stop_is_compared_with(explorer: Explorer) -> None:
+    explorer.open("#space=linear&stops=teflon,chrome&t=0.4&light=points&compare=stop:chrome")
+    explorer.wait_for_picture(1)
+    assert explorer.page.locator(".split").inner_text().split() == ["linear", "chrome"]
+    assert explorer.page.locator(".strip .names").inner_text() == ""
+    # The left end of the split shows the mix, its right the stop: nothing of it changes with t.
+    explorer.wait_until_settled()
+    before = explorer.page.evaluate("document.querySelector('.live').toDataURL()")
+    explorer.set_t(1)
+    explorer.page.wait_for_function(
+        "p => document.querySelector('.live').toDataURL() !== p", arg=before
+    )
+
+
+def test_a_place_outside_the_hull_is_marked_beside_the_nearest(explorer: Explorer) -> None:
+    far = [1e6, 0.0, 0.0] * 3
+    point = ",".join(map(str, far))
+    explorer.open(f"#space=paper&stops=cherry-235,teflon&t=0.5&light=points&point={point}")
+    explorer.page.get_by_role("button", name="Back to route").wait_for()
+    assert "this is the nearest" in explorer.page.locator(".adjustment").inner_text()
+    explorer.page.locator(".maps [data-value=R]").click()
+    explorer.page.wait_for_selector(".asked")
+    assert "nearest" in explorer.page.locator(".space .note").inner_text()
+
+
+def test_a_free_place_is_undone_and_redone(explorer: Explorer) -> None:
+    explorer.open("#space=anchored&stops=cherry-235,gold-paint&t=0.5&light=points")
+    explorer.page.wait_for_selector(".recipe .name")
+    on_route = explorer.recipe
+    explorer.page.get_by_label("Body colour").fill("#80402f")
+    back = explorer.page.get_by_role("button", name="Back to route")
+    back.wait_for()
+    left = explorer.recipe
+    explorer.page.get_by_label("Undo").click()
+    back.wait_for(state="hidden")
+    assert explorer.recipe == on_route
+    explorer.page.get_by_label("Redo").click()
+    back.wait_for()
+    assert explorer.recipe == left
+
+
+def test_the_paper_s_recipe_has_weights_for_each_channel(explorer: Explorer) -> None:
+    explorer.open("#space=paper&pace=uniform&stops=cherry-235,pink-felt&t=0.5&light=points")
+    explorer.page.wait_for_selector(".recipe .name")
+    shares = explorer.page.locator(".recipe .share").all_text_contents()
+    # One number stands for three that are equal.
+    split = [share.removesuffix(" %").split(" · ") for share in shares]
+    channels = [row if len(row) == 3 else 3 * row for row in split]
+    assert any(len(row) == 3 for row in split)
+    sums = [
+        sum(0.5 if w == "<1" else float(w) for w in column)
+        for column in zip(*channels, strict=True)
+    ]
+    assert sums == pytest.approx([100, 100, 100], abs=len(shares))
+
+
+def test_crossing_into_the_next_simplex_never_blanks_the_picture(explorer: Explorer) -> None:
+    explorer.open("#space=paper&pace=uniform&stops=cherry-235,pink-felt&t=0&light=points")
+    explorer.wait_for_picture(4)
+    explorer.page.route(
+        "**/api/tables/*",
+        lambda route: (explorer.page.wait_for_timeout(150), route.continue_()),
+    )
+    seen = explorer.page.evaluate(
+        f"""async () => {{
+          const drawn = {DRAWN};
+          const input = document.querySelector("[name=t]");
+          const covered = [];
+          const recipes = new Set();
+          for (let i = 0; i <= 60; i++) {{
+            input.value = String(i / 60);
+            input.dispatchEvent(new Event("input"));
+            await new Promise(requestAnimationFrame);
+            covered.push(drawn());
+            recipes.add([...document.querySelectorAll(".recipe .name")].map((e) => e.textContent).sort().join());
+          }}
+          return {{ covered, recipes: recipes.size }};
+        }}"""
+    )
+    assert seen["recipes"] > 2
+    assert min(seen["covered"]) == pytest.approx(max(seen["covered"]), rel=0.05), json.dumps(seen)
+
+
+def test_few_tables_are_asked_for_at_a_time(explorer: Explorer) -> None:
+    asked: list[str] = []
+    explorer.page.on(
+        "request", lambda request: "/api/tables/" in request.url and asked.append(request.url)
+    )
+    explorer.open(
+        "#space=paper&pace=uniform&stops=cherry-235,chrome,teflon,pink-felt&t=0&light=points"
+    )
+    explorer.wait_until_settled()
+    # What is shown, at most four that come next, and the other stop beside t, guessed before the route was known.
+    assert len(set(asked)) <= len(explorer.recipe) + 4 + 1
