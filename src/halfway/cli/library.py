@@ -1,10 +1,11 @@
 """``halfway library``: build and look at libraries."""
 
 import json
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
+from .compact import compact, compact_lines
 from .console import engine, say, track
 from .options import Scheduler
 
@@ -47,6 +48,9 @@ def build(
     )
 
 
+app.command()(compact)
+
+
 @app.command()
 def info(
     lib: Annotated[str, typer.Argument(metavar="[LIB]")] = "builtin:merl-abc",
@@ -58,10 +62,10 @@ def info(
     halfway library info builtin:merl-abc
     halfway library info merl.brdflib --json
     """
-    from halfway.library import open_library
+    from halfway.library import CompactLibrary, open_library
 
     library = open_library(lib)
-    facts = {
+    facts: dict[str, Any] = {
         "format": 1,
         "library": library.name,
         "grid": list(library.grid.shape),
@@ -71,6 +75,8 @@ def info(
         "checksum": library.checksum,
         "materials": list(library.names),
     }
+    if isinstance(library, CompactLibrary):
+        facts["compact"] = library.facts()
     if as_json:
         print(json.dumps(facts, indent=1))
         return
@@ -78,4 +84,4 @@ def info(
     for key in ("description", "source", "licence"):
         if facts[key]:
             print(f"{key}: {facts[key]}")
-    print("\n".join(f"  {name}" for name in library.names))
+    print("\n".join([*compact_lines(library), *(f"  {name}" for name in library.names)]))

@@ -4,6 +4,9 @@ from ..brdf.sphere import JUDGING_SCENE, PACING_SCENE, BasisScene, SphereOperato
 from .basis import BasisImages
 from .basis_samples import BasisSamples
 from .building import build_library
+from .coding import Coding
+from .compact import CompactLibrary
+from .compacting import compact_library
 from .library import Library, Origin
 from .opening import DEFAULT_LIBRARY, library_called, open_library
 from .pca import Pca
@@ -19,6 +22,8 @@ __all__ = [
     "BasisImages",
     "BasisSamples",
     "BasisScene",
+    "Coding",
+    "CompactLibrary",
     "Library",
     "Origin",
     "Pca",
@@ -28,6 +33,7 @@ __all__ = [
     "StoredLibrary",
     "Subset",
     "build_library",
+    "compact_library",
     "library_called",
     "most_different",
     "open_library",

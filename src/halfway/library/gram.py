@@ -29,7 +29,7 @@ from ..tasks import THREADS, Engine, Track, run, silent
 from .blocks import columns_per_piece, ranges
 from .library import Library
 
-Products = Float64[np.ndarray, "3 n_pairs"]
+Products = Float64[np.ndarray, "n_channels n_pairs"]
 """Of a symmetric matrix per channel, the lower triangle row by row."""
 
 
@@ -43,9 +43,9 @@ class Gram:
     """The material that is the origin."""
     products: Products
     """1/sr^2."""
-    squared_norms: Float64[np.ndarray, "3 N"]
+    squared_norms: Float64[np.ndarray, "n_channels N"]
     """|p_i|^2, 1/sr^2."""
-    n_cells: Int[np.ndarray, " 3"]
+    n_cells: Int[np.ndarray, " n_channels"]
     """Cells that count: measured in every material."""
 
     @classmethod
@@ -84,7 +84,7 @@ class Gram:
         total = _sum(library, Part(new, int(known[self.origin])), track, engine)
         if (total.n_cells != self.n_cells).any():
             return Gram.of(library, track=track, engine=engine)
-        norms = np.empty((3, len(library)))
+        norms = np.empty((library.n_channels, len(library)))
         norms[:, known], norms[:, new] = self.squared_norms, total.norms
         products = [
             pack(_joined(unpack(old, len(known)), rows.reshape(len(new), -1), known, new))
@@ -130,13 +130,13 @@ class Part(NamedTuple):
 
 
 class _Sum(NamedTuple):
-    products: Float64[np.ndarray, "3 n_products"]
-    norms: Float64[np.ndarray, "3 n_rows"]
-    n_cells: Int[np.ndarray, " 3"]
+    products: Float64[np.ndarray, "n_channels n_products"]
+    norms: Float64[np.ndarray, "n_channels n_rows"]
+    n_cells: Int[np.ndarray, " n_channels"]
 
 
 def _sum(library: Library, part: Part, track: Track, engine: Engine) -> _Sum:
-    n, total = len(library), _zeros(len(library), part)
+    n, total = len(library), _zeros(library, part)
     blocks = run(
         partial(gram_block, library, part),
         library.blocks(),
@@ -155,15 +155,15 @@ def _sum(library: Library, part: Part, track: Track, engine: Engine) -> _Sum:
     return total
 
 
-def _zeros(n: int, part: Part) -> _Sum:
-    n_rows = len(part.rows)
+def _zeros(library: Library, part: Part) -> _Sum:
+    c, n, n_rows = library.n_channels, len(library), len(part.rows)
     n_products = n * (n + 1) // 2 if n_rows == n else n * n_rows
-    return _Sum(np.zeros((3, n_products)), np.zeros((3, n_rows)), np.zeros(3, np.int64))
+    return _Sum(np.zeros((c, n_products)), np.zeros((c, n_rows)), np.zeros(c, np.int64))
 
 
 def gram_block(library: Library, part: Part, columns: slice) -> _Sum:
     """The task of a pass: the products on one block."""
-    total = _zeros(len(library), part)
+    total = _zeros(library, part)
     for channel, samples in enumerate(library.columns(columns)):
         total.products[channel], total.norms[channel], total.n_cells[channel] = _channel(
             samples, part

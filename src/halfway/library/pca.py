@@ -49,15 +49,15 @@ class Pca:
 
     names: tuple[str, ...]
     """The materials, in the library's order."""
-    eigenvalues: Float64[np.ndarray, "3 K"]
+    eigenvalues: Float64[np.ndarray, "n_channels K"]
     """Of the covariance of eq. 3 (a sum, not a mean), descending, non-negative, 1/sr^2."""
-    eigenvectors: Float64[np.ndarray, "3 N K"]
+    eigenvectors: Float64[np.ndarray, "n_channels N K"]
     """Of the Gram matrix; column j belongs to eigenvalue j, its largest entry positive."""
-    squared_norms: Float64[np.ndarray, "3 N"]
+    squared_norms: Float64[np.ndarray, "n_channels N"]
     """|p_i|^2 over the cells that count, 1/sr^2."""
-    rest: Float64[np.ndarray, "3 N"]
+    rest: Float64[np.ndarray, "n_channels N"]
     """|u_i|^2 that all K components leave, 1/sr^2."""
-    n_cells: tuple[int, int, int]
+    n_cells: tuple[int, ...]
     """Cells that count: measured in every material."""
 
     @classmethod
@@ -97,7 +97,7 @@ class Pca:
         k = n_components or len(names)
         pairs: list[tuple[np.ndarray, np.ndarray]] = []
         centred_norms = np.empty_like(gram.squared_norms)
-        for channel in range(3):
+        for channel in range(len(centred_norms)):
             centred = gram.centred(channel)
             centred_norms[channel] = centred.diagonal()
             pairs.append(_eigen(centred, k))
@@ -113,19 +113,19 @@ class Pca:
     def _finished(
         cls,
         names: tuple[str, ...],
-        eigenvalues: Float64[np.ndarray, "3 K"],
-        eigenvectors: Float64[np.ndarray, "3 N K"],
-        squared_norms: Float64[np.ndarray, "3 N"],
-        centred_norms: Float64[np.ndarray, "3 N"],
+        eigenvalues: Float64[np.ndarray, "n_channels K"],
+        eigenvectors: Float64[np.ndarray, "n_channels N K"],
+        squared_norms: Float64[np.ndarray, "n_channels N"],
+        centred_norms: Float64[np.ndarray, "n_channels N"],
         n_cells: np.ndarray,
     ) -> "Pca":
         kept = np.einsum("cij,cj->ci", eigenvectors**2, eigenvalues)
         is_all = eigenvalues.shape[1] == len(names)
         rest = np.zeros_like(kept) if is_all else np.maximum(centred_norms - kept, 0)
-        r, g, b = map(int, n_cells)
-        return cls(names, eigenvalues, eigenvectors, squared_norms, rest, (r, g, b))
+        cells = tuple(map(int, n_cells))
+        return cls(names, eigenvalues, eigenvectors, squared_norms, rest, cells)
 
-    def scores(self, n_components: int) -> Float64[np.ndarray, "3 N k"]:
+    def scores(self, n_components: int) -> Float64[np.ndarray, "n_channels N k"]:
         """Coordinates of the materials on the first components, 1/sr; their mean is 0."""
         k = n_components
         return self.eigenvectors[:, :, :k] * np.sqrt(self.eigenvalues[:, None, :k])
@@ -139,7 +139,7 @@ class Pca:
         eigenvalues, vectors = _eigen(scores @ scores.T, min(n_components, len(scores)))
         return vectors * np.sqrt(eigenvalues)
 
-    def squared_residuals(self, n_components: int) -> Float64[np.ndarray, "3 N"]:
+    def squared_residuals(self, n_components: int) -> Float64[np.ndarray, "n_channels N"]:
         """|u_i - u_i,k|^2 of the k-component reconstructions, k at most K."""
         tail = self.eigenvectors[:, :, n_components:] ** 2
         return np.einsum("cij,cj->ci", tail, self.eigenvalues[:, n_components:]) + self.rest
@@ -184,7 +184,9 @@ def _signed(vectors: Float64[np.ndarray, "*c N k"]) -> Float64[np.ndarray, "*c N
     return vectors * np.sign(np.take_along_axis(vectors, largest, axis=-2))
 
 
-def _combine(library: Library, weights: Float64[np.ndarray, "3 N"], columns: slice) -> np.ndarray:
+def _combine(
+    library: Library, weights: Float64[np.ndarray, "n_channels N"], columns: slice
+) -> np.ndarray:
     block = library.columns(columns)
     return np.stack([w @ samples for w, samples in zip(weights, block, strict=True)]).astype(
         np.float32

@@ -38,13 +38,13 @@ OVERSAMPLING = 32
 class Sketch(NamedTuple):
     """Leading eigenpairs of the Gram matrices about the centroid, and the exact norms."""
 
-    eigenvalues: Float64[np.ndarray, "3 K"]
-    eigenvectors: Float64[np.ndarray, "3 N K"]
-    squared_norms: Float64[np.ndarray, "3 N"]
+    eigenvalues: Float64[np.ndarray, "n_channels K"]
+    eigenvectors: Float64[np.ndarray, "n_channels N K"]
+    squared_norms: Float64[np.ndarray, "n_channels N"]
     """|p_i|^2, 1/sr^2."""
-    centred_norms: Float64[np.ndarray, "3 N"]
+    centred_norms: Float64[np.ndarray, "n_channels N"]
     """|u_i|^2, 1/sr^2."""
-    n_cells: Int[np.ndarray, " 3"]
+    n_cells: Int[np.ndarray, " n_channels"]
 
 
 def sketch(
@@ -65,7 +65,7 @@ def sketch(
     """
     n = len(library)
     n_vectors = min(n_components + OVERSAMPLING, n)
-    tests = np.random.default_rng(seed).standard_normal((3, n, n_vectors))
+    tests = np.random.default_rng(seed).standard_normal((library.n_channels, n, n_vectors))
     for i in range(1, n_passes):
         label = f"Components, pass {i} of {n_passes}"
         tests = _sum(library, _orthonormal(tests), label, track, engine).images
@@ -79,16 +79,16 @@ def sketch(
 
 
 def _orthonormal(
-    vectors: Float64[np.ndarray, "3 N n_vectors"],
-) -> Float64[np.ndarray, "3 N n_vectors"]:
+    vectors: Float64[np.ndarray, "n_channels N n_vectors"],
+) -> Float64[np.ndarray, "n_channels N n_vectors"]:
     return np.linalg.qr(vectors)[0]
 
 
 class _Sum(NamedTuple):
-    images: Float64[np.ndarray, "3 N n_vectors"]
-    norms: Float64[np.ndarray, "3 N"]
-    centred: Float64[np.ndarray, "3 N"]
-    n_cells: Int[np.ndarray, " 3"]
+    images: Float64[np.ndarray, "n_channels N n_vectors"]
+    norms: Float64[np.ndarray, "n_channels N"]
+    centred: Float64[np.ndarray, "n_channels N"]
+    n_cells: Int[np.ndarray, " n_channels"]
 
 
 def _sum(library: Library, tests: np.ndarray, label: str, track: Track, engine: Engine) -> _Sum:
@@ -113,7 +113,7 @@ def _sum(library: Library, tests: np.ndarray, label: str, track: Track, engine: 
 
 def _zeros(tests: np.ndarray) -> _Sum:
     norms = np.zeros(tests.shape[:2])
-    return _Sum(np.zeros_like(tests), norms, norms.copy(), np.zeros(3, np.int64))
+    return _Sum(np.zeros_like(tests), norms, norms.copy(), np.zeros(len(tests), np.int64))
 
 
 def sketch_block(library: Library, tests: np.ndarray, columns: slice) -> _Sum:

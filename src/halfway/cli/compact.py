@@ -1,0 +1,80 @@
+"""``halfway library compact``: a library as principal components, in one file."""
+
+from enum import StrEnum
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from .console import engine, say, track
+from .options import Scheduler
+
+
+class MappingName(StrEnum):
+    log = "log"
+    linear = "linear"
+
+
+class PrecisionName(StrEnum):
+    int8 = "int8"
+    float16 = "float16"
+    float32 = "float32"
+
+
+def compact(
+    lib: Annotated[str, typer.Argument(metavar="LIB")],
+    output: Annotated[
+        Path, typer.Option("--output", "-o", metavar="FILE", help="The file to write, NAME.brdfc.")
+    ],
+    components: Annotated[
+        int, typer.Option("-k", help="Principal components; more lose less and take more room.")
+    ] = 36,
+    mapping: Annotated[
+        MappingName,
+        typer.Option(
+            help="log: errors are shares of the value; linear: the paper's, of f_r itself."
+        ),
+    ] = MappingName.log,
+    precision: Annotated[
+        PrecisionName, typer.Option(help="Of the components.")
+    ] = PrecisionName.int8,
+    shared: Annotated[
+        bool, typer.Option(help="Whether the three channels share their components.")
+    ] = True,
+    scheduler: Scheduler = "",
+) -> None:
+    """Keep a library as its mean, components and scores, in one file that opens like a library.
+
+    What is read from it is a reconstruction: never negative, and otherwise without the promises of a measured material.
+
+    \b
+    halfway library compact merl.brdflib -k 36 -o merl.brdfc
+    halfway library compact merl_nbrdf.zip -k 108 -o neural.brdfc
+    """
+    from halfway.library import Coding, compact_library, open_library
+
+    library = open_library(lib)
+    coding = Coding(mapping.value, shared, precision.value)
+    with engine(scheduler) as where:
+        made = compact_library(
+            library, output, n_components=components, coding=coding, track=track, engine=where
+        )
+    say("\n".join([f"{output}: {len(made)} materials on {made.grid}", *compact_lines(made)]))
+    say(f"Next: halfway route {output} A B")
+
+
+def compact_lines(library: object) -> list[str]:
+    """What ``halfway library info`` says of a compact library."""
+    from halfway.library import CompactLibrary
+
+    if not isinstance(library, CompactLibrary):
+        return []
+    header, tables = library.header, 12 * len(library) * library.grid.size
+    times = tables / library.n_bytes
+    shared = "shared by the channels" if header.coding.shared else "for each channel"
+    error = header.error
+    return [
+        f"compact: {header.n_components} {header.coding.mapping} components {shared}, {header.coding.precision}",
+        f"size: {library.n_bytes / 1e6:.1f} MB, {times:.1f} times less than tables of {tables / 1e6:.1f} MB",
+        f"error: {error['mean_relative_error']:.4f} relative (Table I's), {error['log_relative']:.4f} log-relative",
+    ]

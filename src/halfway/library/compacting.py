@@ -1,0 +1,209 @@
+"""Making a compact library: components of the coded rows, cut to a precision, and what that loses.
+
+Two passes over the library, and one over the result: the Gram matrix of the coded rows gives eigenvectors V and eigenvalues L;
+the components ``V^T u / sqrt(L)`` are combinations of the rows, made block by block, and never all at once in more than
+their stored precision. A component is cut to a precision in runs of `RUN` measured cells, each with a step of its own,
+because highlights and the rest differ by orders of magnitude.
+"""
+
+import hashlib
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+from jaxtyping import Float32, Float64
+
+from .._types import Table
+from ..brdf.metrics import comparison_cells, log_relative
+from ..errors import LibraryError
+from ..tasks import THREADS, Engine, Track, run, silent
+from .blocks import ranges
+from .coding import Coding, Precision
+from .compact import Arrays, CompactLibrary, Header, write_compact
+from .library import Library
+from .pca import Pca
+
+RUN = 1024
+"""Measured cells that share a step."""
+N_COMPONENTS = 36
+
+
+def compact_library(
+    library: Library,
+    path: Path,
+    *,
+    n_components: int = N_COMPONENTS,
+    coding: Coding = Coding(),  # noqa: B008 (frozen)
+    track: Track = silent,
+    engine: Engine = THREADS,
+) -> CompactLibrary:
+    """Write the compact library of ``library`` at ``path``, and measure it.
+
+    Raises
+    ------
+    LibraryError
+        With fewer than one component, or no fewer than there are rows; or no cell measured in every material.
+    OutputError
+        When ``path`` cannot be written.
+    """
+    rows = CodedRows(library, coding)
+    if not 1 <= n_components < len(rows):
+        raise LibraryError(
+            f"{library.name} cannot be kept in {n_components} components: it has {len(rows)} rows, and fewer are "
+            f"expected, at least 1. Choose -k 1 to {len(rows) - 1}."
+        )
+    pca = Pca.fit(rows, n_components=n_components, track=track, engine=engine)
+    arrays = _arrays(rows, pca, track, engine)
+    digest = hashlib.sha256(repr((library.names, library.grid, coding)).encode())
+    for array in arrays:
+        digest.update(np.ascontiguousarray(array).data)
+    header = Header(
+        library.grid,
+        library.names,
+        replace(library.origin, description=_description(library, n_components)),
+        coding,
+        n_components,
+        library.checksum,
+        digest.hexdigest(),
+        {},
+    )
+    write_compact(path, header, arrays)
+    error = measured_error(library, CompactLibrary(path), track=track, engine=engine)
+    write_compact(path, replace(header, error=error), arrays)
+    return CompactLibrary(path)
+
+
+class CodedRows(Library):
+    """The coded rows of a library: what a compact library takes the components of."""
+
+    def __new__(cls, *_: Any, **__: Any) -> "CodedRows":
+        return object.__new__(cls)  # not a library that anyone looks for
+
+    def __init__(self, library: Library, coding: Coding) -> None:
+        self.library, self.coding = library, coding
+        self.name, self.grid, self.origin = library.name, library.grid, library.origin
+        per_material = 3 // coding.n_bases
+        self.names = tuple(f"{name} {i}" for i in range(per_material) for name in library.names)
+        self.n_channels = coding.n_bases
+        self.checksum = hashlib.sha256(repr((library.checksum, coding)).encode()).hexdigest()
+        self.material_checksums = self.names
+
+    def row(self, i: int) -> Table:
+        raise NotImplementedError(f"rows are read in blocks, not {i} alone")
+
+    def columns(self, columns: slice) -> Float32[np.ndarray, "n_bases n_rows n"]:
+        samples = self.library.columns(columns)
+        # A cell counts in all channels or in none.
+        samples[:, :, np.isnan(samples.sum(axis=(0, 1)))] = np.nan
+        return self.coding.to_coded(samples, self.grid, columns)
+
+    def blocks(self) -> list[slice]:
+        return self.library.blocks()
+
+
+class _Cut(NamedTuple):
+    cells: np.ndarray  # (n,) bool
+    lengths: np.ndarray  # of the runs
+    mean: Float32[np.ndarray, "n_bases m"]
+    steps: Float32[np.ndarray, "n_bases k n_runs"]
+    components: np.ndarray  # (n_bases, k, m)
+
+
+def _arrays(rows: CodedRows, pca: Pca, track: Track, engine: Engine) -> Arrays:
+    # A component within rounding of nothing is nothing.
+    least = len(rows) * np.finfo(float).eps * pca.eigenvalues[:, :1]
+    roots = np.sqrt(np.where(pca.eigenvalues > least, pca.eigenvalues, np.inf))
+    project = np.swapaxes(pca.eigenvectors / roots[:, None], 1, 2)
+    cut = partial(_cut, rows, project, rows.coding.precision)
+    parts = list(run(cut, rows.blocks(), label="Components", track=track, engine=engine))
+    lengths = np.concatenate([part.lengths for part in parts])
+    return Arrays(
+        np.packbits(np.concatenate([part.cells for part in parts])),
+        np.append(0, np.cumsum(lengths)).astype(np.uint64),
+        np.concatenate([part.mean for part in parts], axis=-1),
+        np.concatenate([part.steps for part in parts], axis=-1),
+        np.concatenate([part.components for part in parts], axis=-1),
+        pca.scores(pca.eigenvalues.shape[1]).astype(np.float32),
+    )
+
+
+def _cut(
+    rows: CodedRows, project: Float64[np.ndarray, "n_bases k R"], precision: Precision, block: slice
+) -> _Cut:
+    coded = rows.columns(block)
+    cells = ~np.isnan(coded[0, 0])
+    coded = coded[:, :, cells].astype(np.float64)
+    mean = coded.mean(axis=1, keepdims=True)
+    components = project @ (coded - mean)
+    runs = ranges(components.shape[-1], RUN)
+    pieces = [_stored(components[..., r], precision) for r in runs]
+    steps = [step for step, _ in pieces]
+    empty = components[..., :0]
+    return _Cut(
+        cells,
+        np.array([r.stop - r.start for r in runs], np.int64),
+        mean[:, 0].astype(np.float32),
+        np.stack(steps, axis=-1) if steps else empty.astype(np.float32),
+        np.concatenate([stored for _, stored in pieces] or [empty.astype(precision)], axis=-1),
+    )
+
+
+def _stored(
+    components: Float64[np.ndarray, "n_bases k n"], precision: Precision
+) -> tuple[Float32[np.ndarray, "n_bases k"], np.ndarray]:
+    """The step of each component on a run, and the component in steps: at most 127 of them, or 1."""
+    largest = np.abs(components).max(axis=-1)
+    step = (largest / (127 if precision == "int8" else 1)).astype(np.float32)
+    # The smallest step that is a number: a component that is 0 stays 0.
+    step = np.maximum(step, np.finfo(np.float32).tiny)
+    in_steps = components / step[..., None]
+    if precision == "int8":
+        in_steps = np.clip(np.round(in_steps), -127, 127)
+    return step, in_steps.astype(precision)
+
+
+def measured_error(
+    library: Library, compact: Library, *, track: Track = silent, engine: Engine = THREADS
+) -> dict[str, float]:
+    """What a library loses in ``compact``, over the cells that it keeps.
+
+    ``mean_relative_error`` is Table I's, the mean over materials and channels of |p_i - q_i| / |p_i - C|; ``log_relative``
+    the root mean square of `halfway.brdf.metrics.log_relative` below grazing angles, by solid angle.
+    """
+    compare = partial(_compared, library, compact)
+    total = _Compared(np.zeros((3, len(library))), np.zeros((3, len(library))), np.zeros(2))
+    for part in run(compare, library.blocks(), label="Errors", track=track, engine=engine):
+        for whole, piece in zip(total, part, strict=True):
+            whole += piece
+    relative = np.sqrt(total.squared / np.where(total.centred > 0, total.centred, 1.0))
+    return {
+        "mean_relative_error": float(relative.mean()),
+        "log_relative": float(np.sqrt(total.log[0] / total.log[1])),
+    }
+
+
+class _Compared(NamedTuple):
+    squared: Float64[np.ndarray, "3 N"]
+    centred: Float64[np.ndarray, "3 N"]
+    log: Float64[np.ndarray, " 2"]  # weighted sum of squares, and of weights
+
+
+def _compared(library: Library, compact: Library, block: slice) -> _Compared:
+    p, q = library.columns(block), compact.columns(block)
+    kept = ~np.isnan(q[0, 0])
+    p, q = p[..., kept].astype(np.float64), q[..., kept].astype(np.float64)
+    centred = p - p.mean(axis=1, keepdims=True)
+    solid_angle, cos_i, cos_o, grazing = (
+        part.ravel()[block][kept] for part in comparison_cells(library.grid)
+    )
+    weights = np.where(grazing, 0.0, solid_angle)
+    apart = log_relative(p, cos_i, cos_o) - log_relative(q, cos_i, cos_o)
+    log = np.array([(apart**2 @ weights).sum(), 3 * p.shape[1] * weights.sum()])
+    return _Compared(((p - q) ** 2).sum(axis=-1), (centred**2).sum(axis=-1), log)
+
+
+def _description(library: Library, n_components: int) -> str:
+    what = library.origin.description or library.name
+    return f"{what}; reconstructed from {n_components} principal components"
