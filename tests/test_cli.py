@@ -214,7 +214,7 @@ def test_convert_and_info(run, lib, tmp_path):
     assert (tmp_path / "one.binary").read_bytes() == (
         tmp_path / "measured" / "material-1.binary"
     ).read_bytes()
-    assert "one: TabularBrdf, grid 4 x 3 x 5, albedo" in run("info", "one.binary")[1]
+    assert "one: a table of 4 x 3 x 5 cells, albedo" in run("info", "one.binary")[1]
     assert "names no format" in run("convert", "one.binary", "one.exr")[2]
 
 

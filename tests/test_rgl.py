@@ -6,8 +6,10 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 from rgl_files import UP, directions, fields, plugin_values, viewers
+from typer.testing import CliRunner
 
 from halfway import Grid, tabulate
+from halfway.cli import app
 from halfway.errors import FormatError
 from halfway.formats import find_brdfs, read_brdf
 from halfway.formats.rgl_reader import read_rgl
@@ -152,6 +154,16 @@ def test_a_table_of_an_anisotropic_material_holds_the_mean_and_says_so(brdf_of):
     assert_allclose(
         table[:, 2, 1, 3], (brdf.eval(wi, wo) + brdf.eval(wo, wi)).mean(axis=0) / 2, rtol=1e-6
     )
+
+
+def test_info_says_how_anisotropic_a_file_is(brdf_of, tmp_path):
+    """And what comes from the file cannot steer a terminal."""
+    aniso = fields(np.random.default_rng(5), n_phi=5)
+    brdf = brdf_of({**aniso, "description": np.frombuffer(b"silk\x1b[2J", np.uint8)})
+    done = CliRunner().invoke(app, ["info", str(tmp_path / "clay_rgb.bsdf")])
+    said = f"clay_rgb: an RGL material (anisotropic by {brdf.anisotropy:.0%}), 3 x 5 directions, RGB of the file, silk[2J"
+    assert done.stdout.startswith(said), done.output
+    assert "\x1b" not in done.stdout
 
 
 def test_a_material_that_does_not_vary_is_not_called_anisotropic(brdf_of):

@@ -208,6 +208,34 @@ def test_mitsuba_loads_spectra_in_spectral_variants(written):
     assert_allclose(spectra, rgb @ smooth_primaries(WAVELENGTHS)[at].T, rtol=1e-3, atol=1e-4)
 
 
+@pytest.mark.parametrize("light", ["D65", "E"])
+def test_under_white_light_a_spectral_file_has_the_colour_of_the_rgb_file(
+    written, light, mitsuba_spectral
+):
+    """With Mitsuba's own observer and illuminant; white is shown white. Exact under D65, 2 % under the equal-energy E."""
+    mi = mitsuba_spectral
+    wi, wo = (
+        v[:40]
+        for v in (directions(np.random.default_rng(3), 40), viewers(np.random.default_rng(4), 40))
+    )
+    nm = np.arange(380, 781, 10.0)
+    observer = np.array([list(mi.cie1931_xyz(w)) for w in nm])
+    illuminant = np.array([mi.cie_d65(w) if light == "D65" else 1.0 for w in nm])
+    columns = [list(mi.xyz_to_srgb(mi.Color3f(*axis))) for axis in np.eye(3)]
+    weights = observer * illuminant[:, None] @ np.array(columns)
+    groups = [
+        plugin_values(mi, written / "True.bsdf", wi, wo, np.resize(nm[i : i + 4], 4).tolist())
+        for i in range(0, len(nm), 4)
+    ]
+    spectra = np.concatenate(groups, axis=1)[:, : len(nm)]
+    colours = spectra @ (weights / weights.sum(axis=0))
+    expected = read_rgl(written / "False.bsdf").eval(wi, wo) * wi[:, 2:]
+    assert (
+        np.abs(colours - expected).sum()
+        < (0.003 if light == "D65" else 0.02) * np.abs(expected).sum()
+    )
+
+
 @pytest.fixture(scope="module")
 def mirror(tmp_path_factory):
     """Chrome, whose highlight is a tenth of a degree wide."""

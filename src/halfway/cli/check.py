@@ -37,7 +37,7 @@ def check(
     halfway check builtin:merl-abc
     halfway check damaged.binary --repair -o sound.binary
     """
-    from halfway.brdf import check as card_of
+    from halfway.tasks import run
 
     from .materials import to_materials
 
@@ -46,15 +46,19 @@ def check(
         _repair(materials, output)
         return
     names = words if len(words) == len(materials) else [material.label for material in materials]
-    tracked = track(materials, "Checking", len(materials))
-    cards = [
-        (name, card_of(material.table())) for name, material in zip(names, tracked, strict=True)
-    ]
+    checked = run(_card, materials, label="Checking", track=track)
+    cards = list(zip(names, checked, strict=True))
     print(_as_json(cards) if as_json else _as_lines(cards))
     n_broken = sum(not card.ok for _, card in cards)
     if n_broken:
         say(f"{n_broken} of {len(cards)} break a law")
         raise typer.Exit(1)
+
+
+def _card(material: "Material") -> "ValidityCard":
+    from halfway.brdf import check as card_of
+
+    return card_of(material.table())
 
 
 def _repair(materials: list["Material"], output: Path | None) -> None:

@@ -11,6 +11,8 @@ from .console import say
 if TYPE_CHECKING:
     import numpy as np
 
+    from ..brdf import Brdf
+
 
 def convert(
     source: Annotated[str, typer.Argument(metavar="IN", help="A file, LIB:NAME or a recipe.")],
@@ -48,23 +50,44 @@ def convert(
 def info(
     source: Annotated[str, typer.Argument(metavar="FILE", help="A file, LIB:NAME or a recipe.")],
 ) -> None:
-    """Say what a file is: format, grid, colour.
+    """Say what a file is: format, grid, source, colour.
 
     \b
     halfway info gold.binary
+    halfway info builtin:merl-abc:teflon
     """
-    from halfway.brdf import TabularBrdf, directional_albedo
+    from halfway.brdf import directional_albedo
 
     from .materials import to_materials
 
     for material in to_materials([source]):
         brdf = material.load()
-        grid = str(brdf.grid) if isinstance(brdf, TabularBrdf) else "none: sampled on any"
         albedo = directional_albedo(brdf, 0.35, n_theta_h=90, n_phi_h=24)
+        origin = material.library.origin.description if material.library else ""
+        facts = [*_facts(brdf), *filter(None, [origin])]
         print(
-            f"{material.label}: {type(brdf).__name__}, grid {grid}, "
+            f"{material.label}: {', '.join(facts)}, "
             f"albedo at 20 degrees {albedo[0]:.3f} {albedo[1]:.3f} {albedo[2]:.3f} {_swatch(albedo)}"
         )
+
+
+def _facts(brdf: "Brdf") -> list[str]:
+    """What the file holds, and where its numbers come from."""
+    from halfway.brdf import TabularBrdf
+    from halfway.formats import NeuralBrdf, RglBrdf
+
+    match brdf:
+        case TabularBrdf():
+            return [f"a table of {brdf.grid} cells"]
+        case RglBrdf():
+            kind = "isotropic" if brdf.is_isotropic else f"anisotropic by {brdf.anisotropy:.0%}"
+            size = f"{len(brdf.theta_i)} x {len(brdf.phi_i)} directions"
+            description = "".join(c for c in brdf.description if c.isprintable()).strip()
+            return [f"an RGL material ({kind})", size, brdf.source, *filter(None, [description])]
+        case NeuralBrdf():
+            return [f"a neural fit ({brdf.formula})"]
+        case _:
+            return [type(brdf).__name__]
 
 
 def fetch(
