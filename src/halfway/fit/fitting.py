@@ -16,7 +16,7 @@ from ..brdf import Brdf, directional_albedo
 from ..errors import HalfwayError
 from ..formats.rgl_quality import Quality, lit_sphere, quality
 from .gltf import Gltf
-from .metric import Target
+from .metric import Target, Terms
 from .model import AnalyticModel, Vector
 from .openpbr import OpenPbr
 from .principled import Principled
@@ -123,7 +123,7 @@ def _search(kind: type[AnalyticModel], target: Target) -> tuple[AnalyticModel, f
     low, high = kind.bounds()
     neutral, width = kind.neutral(), high - low
 
-    def residuals(x: Vector) -> Vector:
+    def residuals(x: Vector) -> Terms:
         terms, above = target.difference(kind.from_vector(x))
         return np.concatenate([terms, STAY_PASSIVE * above, STAY_NEUTRAL * (x - neutral) / width])
 

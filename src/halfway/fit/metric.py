@@ -34,6 +34,8 @@ BODY_DEGREES = 35.0
 """Beyond, highlights are over."""
 
 Samples = Float64[np.ndarray, "3 n"]
+Terms = Float64[np.ndarray, " n_terms"]
+"""What the metric squares and adds up."""
 
 
 class Pairs(NamedTuple):
@@ -46,7 +48,7 @@ class Pairs(NamedTuple):
     """The root of w_j, and sums of squares to 1."""
     reflected: Float64[np.ndarray, "n_views n"]
     """Takes f to the directional albedo of each view."""
-    view_weight: Vector
+    view_weight: Float64[np.ndarray, " n_views"]
 
     def of(self, model: AnalyticModel) -> Samples:
         """Values of a model, in 1/sr."""
@@ -61,7 +63,7 @@ class Target(NamedTuple):
     known: Bool[np.ndarray, " n"]
     """Pairs at which all channels are measured."""
     samples: Samples
-    seen: Vector
+    seen: Terms
 
     @classmethod
     def of(cls, brdf: Brdf, name: str) -> "Target":
@@ -83,7 +85,7 @@ class Target(NamedTuple):
         samples = np.where(known, np.maximum(samples, 0), 0)
         return cls(pairs, known, samples, _seen(pairs, samples))
 
-    def difference(self, model: AnalyticModel) -> tuple[Vector, Vector]:
+    def difference(self, model: AnalyticModel) -> tuple[Terms, np.ndarray]:
         """The terms of d, of which d is the norm; and by how much each albedo is above 1."""
         f = np.where(self.known, self.pairs.of(model), 0)
         return _seen(self.pairs, f) - self.seen, np.maximum(
@@ -125,7 +127,7 @@ def comparison_pairs() -> Pairs:
     )
 
 
-def _seen(pairs: Pairs, f: Samples) -> Vector:
+def _seen(pairs: Pairs, f: Samples) -> Terms:
     """What the metric compares, weighted, so that d is the norm of a difference."""
     bright = np.cbrt(np.pi * f * pairs.wi[:, 2])
     bright = np.where(bright < 1, bright, 1 + np.log(np.maximum(bright, 1)))

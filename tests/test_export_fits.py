@@ -1,0 +1,174 @@
+"""Fits as files: what a strict reader of each format finds in them."""
+
+import base64
+import json
+import struct
+from importlib import import_module
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from halfway.errors import OutputError
+from halfway.export.fits import write_fit
+from halfway.export.gltf import to_glb, to_gltf
+from halfway.fit import Fit, Gltf, OpenPbr, Principled
+from halfway.fit.model import AnalyticModel
+from halfway.formats.rgl_quality import Quality
+
+BYTES = {5126: 4, 5123: 2}
+COMPONENTS = {"SCALAR": 1, "VEC3": 3}
+# Of each extension, the factors and what they may be: KHR_materials_ior, _specular, _clearcoat.
+EXTENSIONS = {
+    "KHR_materials_ior": {"ior"},
+    "KHR_materials_specular": {"specularFactor", "specularColorFactor"},
+    "KHR_materials_clearcoat": {"clearcoatFactor", "clearcoatRoughnessFactor"},
+}
+
+
+def a_fit(model: AnalyticModel, name: str = "gold-paint 2") -> Fit:
+    return Fit(name, model, 0.01, Quality(40.0, 0.02), 0.003)
+
+
+PLAIN = Gltf(np.array([0.8, 0.4, 0.2]), metallic=0.3, roughness=0.4)
+RICH = Gltf(
+    np.array([0.8, 0.4, 0.2]), 0.1, 0.5, 1.7, 0.9, np.array([1, 0.5, 0.25]), 0.6, 0.125
+)  # fmt: skip
+OPENPBR = OpenPbr(
+    np.array([0.12345, 0.5, 0.25]), 0.3, 0.25, np.array([1, 0.9, 0.8]), 0.33333, 1.75, 0.5, 0.25
+)  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("model", "node"), [(OPENPBR, "open_pbr_surface"), (RICH, "gltf_pbr")], ids=["openpbr", "gltf"]
+)
+def test_a_materialx_document_is_valid_and_holds_the_fit(model, node, tmp_path):
+    mx: Any = import_module("MaterialX")
+    write_fit(tmp_path / "a.mtlx", a_fit(model))
+    document, library = mx.createDocument(), mx.createDocument()
+    mx.loadLibraries(mx.getDefaultDataLibraryFolders(), mx.getDefaultDataSearchPath(), library)
+    mx.readFromXmlFile(document, str(tmp_path / "a.mtlx"))
+    document.setDataLibrary(library)
+    assert document.validate() == (True, "")
+    (surface,) = document.getNodes(node)
+    for name, value in model.parameters().items():
+        written = surface.getInputValue(name)
+        assert_allclose(written.asTuple() if isinstance(value, list) else written, value, rtol=1e-6)
+    (material,) = document.getMaterialNodes()
+    assert material.getConnectedNode("surfaceshader").getName() == surface.getName()
+    assert "40.0 dB" in material.getDocString()
+
+
+@pytest.mark.parametrize("model", [PLAIN, RICH], ids=["plain", "rich"])
+def test_a_gltf_keeps_the_rules_of_the_specification(model):
+    document = json.loads(to_gltf(a_fit(model)))
+    (buffer,) = document["buffers"]
+    head, data = buffer["uri"].split(",")
+    assert head == "data:application/octet-stream;base64"
+    require_valid(document, base64.b64decode(data))
+
+
+@pytest.mark.parametrize("model", [PLAIN, RICH], ids=["plain", "rich"])
+def test_a_glb_is_the_same_in_a_binary_container(model):
+    data = to_glb(a_fit(model))
+    magic, version, n_bytes = struct.unpack_from("<4sII", data)
+    assert (magic, version, n_bytes) == (b"glTF", 2, len(data))
+    n_json, kind = struct.unpack_from("<I4s", data, 12)
+    assert (kind, n_json % 4) == (b"JSON", 0)
+    n_bin, kind = struct.unpack_from("<I4s", data, 20 + n_json)
+    assert (kind, n_bin % 4, 28 + n_json + n_bin) == (b"BIN\0", 0, len(data))
+    document = json.loads(data[20 : 20 + n_json])
+    mesh = data[28 + n_json :]
+    require_valid(document, mesh)
+    text = json.loads(to_gltf(a_fit(model)))
+    del text["buffers"][0]["uri"]
+    assert document == text
+
+
+def require_valid(document: dict[str, Any], data: bytes) -> None:
+    """Rules of sections 3 and 5 that concern what we write: references, sizes, bounds, units, ranges, extensions."""
+    assert document["asset"]["version"] == "2.0"
+    assert document["buffers"][0]["byteLength"] <= len(data)
+    arrays = [accessed(document, i, data) for i in range(len(document["accessors"]))]
+    for accessor, array in zip(document["accessors"], arrays, strict=True):
+        if "min" in accessor:
+            assert_allclose(array.min(axis=0), accessor["min"])
+            assert_allclose(array.max(axis=0), accessor["max"])
+    indices, positions = arrays
+    assert indices.max() < len(positions) < 65535
+    assert_allclose(np.linalg.norm(positions, axis=1), 1, atol=1e-6)  # they are the normals too
+    a, b, c = positions[indices.reshape(-1, 3)].transpose(1, 0, 2)
+    faces = np.cross(b - a, c - a)
+    assert (np.einsum("nk,nk->n", faces, a + b + c) > 0).all()  # counter-clockwise from outside
+    # A closed surface: its volume, by the divergence theorem, is nearly the sphere's.
+    assert_allclose(np.einsum("nk,nk->", a, faces) / 6, 4 / 3 * np.pi, rtol=0.02)
+    assert document["scenes"][document["scene"]]["nodes"] == list(range(len(document["nodes"])))
+    for node in document["nodes"]:
+        if "rotation" in node:
+            assert_allclose(np.linalg.norm(node["rotation"]), 1, atol=1e-6)
+    require_valid_material(document)
+
+
+def require_valid_material(document: dict[str, Any]) -> None:
+    (material,) = document["materials"]
+    used = set(document["extensionsUsed"])
+    assert len(document["extensionsUsed"]) == len(used)
+    extensions = material.get("extensions", {})
+    assert used == {"KHR_lights_punctual", *extensions}
+    for name, values in extensions.items():
+        assert set(values) == EXTENSIONS[name]
+    surface = material["pbrMetallicRoughness"]
+    factors = [surface["metallicFactor"], surface["roughnessFactor"], *surface["baseColorFactor"]]
+    assert all(0 <= factor <= 1 for factor in factors)
+    assert extensions.get("KHR_materials_ior", {"ior": 1.5})["ior"] >= 1
+    lights = document["extensions"]["KHR_lights_punctual"]["lights"]
+    assert all(light["type"] == "directional" and light["intensity"] >= 0 for light in lights)
+
+
+def accessed(document: dict[str, Any], i: int, data: bytes) -> np.ndarray:
+    accessor = document["accessors"][i]
+    view = document["bufferViews"][accessor["bufferView"]]
+    start, size = view.get("byteOffset", 0), BYTES[accessor["componentType"]]
+    n = COMPONENTS[accessor["type"]]
+    assert start % 4 == 0
+    assert start + view["byteLength"] <= document["buffers"][view["buffer"]]["byteLength"]
+    assert accessor["count"] * n * size <= view["byteLength"]
+    kind = "<f4" if size == 4 else "<u2"
+    array = np.frombuffer(data, kind, accessor["count"] * n, start)
+    return array.reshape(-1, n) if n > 1 else array
+
+
+def test_a_light_shines_away_from_where_it_stands():
+    """A light shines along -z of its node; the first comes from the upper left, before the sphere."""
+    document = json.loads(to_gltf(a_fit(PLAIN)))
+    x, y, z, w = document["nodes"][2]["rotation"]
+    back = np.array([2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)])
+    assert_allclose(back, np.array([-4, 6, 5]) / np.sqrt(77), atol=1e-12)
+
+
+def test_what_does_nothing_is_left_out():
+    (material,) = json.loads(to_gltf(a_fit(PLAIN)))["materials"]
+    assert "extensions" not in material
+    (material,) = json.loads(to_gltf(a_fit(RICH)))["materials"]
+    assert material["extensions"]["KHR_materials_specular"]["specularColorFactor"] == [1, 0.5, 0.25]
+
+
+@pytest.mark.parametrize(
+    ("file", "model", "message"),
+    [
+        ("a.mtlx", Principled(PLAIN.base_color), "MaterialX has no node for the model principled"),
+        ("a.glb", OPENPBR, "glTF has no material for the model openpbr: expected gltf"),
+        ("a.obj", PLAIN, "suffix '.obj', which names no format of fitted models: expected .mtlx"),
+    ],
+)
+def test_a_format_that_cannot_hold_the_model_says_so(file, model, message, tmp_path):
+    with pytest.raises(OutputError, match=message):
+        write_fit(tmp_path / file, a_fit(model))
+    assert not list(tmp_path.iterdir())
+
+
+def test_json_holds_any_model(tmp_path):
+    write_fit(tmp_path / "a.json", a_fit(Principled(PLAIN.base_color, roughness=0.25)))
+    document = json.loads((tmp_path / "a.json").read_text())
+    assert (document["model"], document["parameters"]["roughness"]) == ("principled", 0.25)
