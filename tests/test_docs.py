@@ -65,3 +65,38 @@ def test_every_name_at_the_top_loads_and_is_public_where_it_lives():
     assert set(halfway.__all__) - public == {"HalfwayError"}
     for name in halfway.__all__:
         assert getattr(halfway, name) is not None
+
+
+LINKED = [
+    *ROOT.glob("*.md"),
+    *DOCS.glob("*.md"),
+    *(DOCS / "api").glob("*.md"),
+    *(DOCS / "decisions").glob("*.md"),
+]
+
+
+@pytest.mark.parametrize("page", LINKED, ids=lambda path: str(path.relative_to(ROOT)))
+def test_links_lead_to_files_and_headings_that_are_there(page):
+    text = re.sub(r"^```.*?^```$", "", page.read_text(), flags=re.MULTILINE | re.DOTALL)
+    for target in re.findall(r"\]\(([^)\s]+)\)", text):
+        if re.match(r"https?:|mailto:", target):
+            continue
+        path, _, anchor = target.partition("#")
+        file = (page.parent / path) if path else page
+        assert file.exists(), f"{page.name} links to {target}"
+        assert not anchor or anchor in _anchors(file), f"{page.name} links to {target}"
+
+
+def _anchors(page: Path) -> set[str]:
+    """The names of the headings, as GitHub and MyST make them."""
+    headings = re.findall(r"^#+ (.*)$", page.read_text(), re.MULTILINE)
+    return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings}
+
+
+def test_examples_are_short_and_say_what_they_show():
+    examples = sorted((ROOT / "examples").glob("plot_*.py"))
+    assert len(examples) >= 6
+    for example in examples:
+        text = example.read_text()
+        assert text.count("\n") < 40, example.name
+        assert re.match(r'"""\n.+\n=+\n\n.+', text), example.name
