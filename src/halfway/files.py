@@ -118,30 +118,29 @@ def scratch_folder(path: Place) -> Generator[Path]:
             _remove_dead(left)
         folder.mkdir()
         try:
-            with _lock(folder):
+            with lock(folder):
                 yield folder
         finally:
             shutil.rmtree(folder, ignore_errors=True)
 
 
-def install(folder: Path, path: Place, *, last: str) -> None:
-    """Move the files of a scratch folder to ``path``, ``last`` at the end: the mark that all are there.
+@contextmanager
+def lock(folder: Path, *, wait: bool = False) -> Generator[bool]:
+    """Whether a folder's lock could be had, at once or by waiting for it; never where the system has none.
 
-    Where nothing is at ``path`` the whole folder is renamed. Files of other names that are there stay.
+    It ends with the block, and with the process however that ends.
     """
-    with explaining(path):
-        if isinstance(path, Path):
-            try:
-                folder.rename(path)
-                return
-            except OSError:
-                if not path.is_dir():
-                    raise
-        for file in sorted(folder.iterdir(), key=lambda file: file.name == last):
-            if isinstance(path, Path):
-                file.replace(path / file.name)
-            else:
-                (path / file.name).put(file)
+    handle = os.open(folder, os.O_RDONLY) if fcntl else None
+    try:
+        held = False
+        if fcntl and handle is not None:
+            with suppress(OSError):
+                fcntl.flock(handle, fcntl.LOCK_EX | (0 if wait else fcntl.LOCK_NB))
+                held = True
+        yield held
+    finally:
+        if handle is not None:
+            os.close(handle)
 
 
 def sweep(folder: Place) -> None:
@@ -174,25 +173,9 @@ def require_space(folder: Place, n_bytes: int, what: str) -> None:
 
 def _remove_dead(folder: Path) -> None:
     """Remove a scratch folder whose maker died: one that nobody holds the lock of, nor has just made."""
-    with suppress(OSError), _lock(folder) as held:
+    with suppress(OSError), lock(folder) as held:
         if held and time.time() - folder.stat().st_mtime > _JUST_MADE_SECONDS:
             shutil.rmtree(folder)
-
-
-@contextmanager
-def _lock(folder: Path) -> Generator[bool]:
-    """Whether the folder's lock could be had; it ends with the process, however that ends. Never where there are none."""
-    handle = os.open(folder, os.O_RDONLY) if fcntl else None
-    try:
-        held = False
-        if fcntl and handle is not None:
-            with suppress(OSError):
-                fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
-                held = True
-        yield held
-    finally:
-        if handle is not None:
-            os.close(handle)
 
 
 def _explain(path: Place, error: OSError) -> str:

@@ -7,7 +7,7 @@ import typer
 
 from .compact import compact, compact_lines
 from .console import engine, say, track
-from .options import Scheduler
+from .options import AsJson, Scheduler
 
 app = typer.Typer(help="Build a library of materials, or see what is in one.", no_args_is_help=True)
 
@@ -85,3 +85,38 @@ def info(
         if facts[key]:
             print(f"{key}: {facts[key]}")
     print("\n".join([*compact_lines(library), *(f"  {name}" for name in library.names)]))
+
+
+@app.command()
+def verify(
+    lib: Annotated[str, typer.Argument(metavar="LIB", help="A library's folder, or its URL.")],
+    as_json: AsJson = False,
+    scheduler: Scheduler = "",
+) -> None:
+    """Read all samples of a library again and compare them with its checksums; exits with 1 when some are damaged.
+
+    Says as well which of the files that it was built of have changed since.
+
+    \b
+    halfway library verify merl.brdflib
+    """
+    from halfway.library import StoredLibrary, verify_library
+    from halfway.places import to_place
+
+    with engine(scheduler) as where:
+        found = verify_library(StoredLibrary(to_place(lib)), track=track, engine=where)
+    kinds = {"damaged": found.damaged, "changed": found.changed}
+    if as_json:
+        document = {"format": 1, "library": lib, "ok": found.ok, "right": found.n_right}
+        print(json.dumps(document | kinds, indent=1))
+    else:
+        for name in found.damaged:
+            print(f"damaged  {name}")
+        for name in found.changed:
+            print(f"changed since it was built  {name}")
+        advice = "" if found.ok and not found.changed else " Build the library again."
+        say(
+            f"{lib}: {found.n_right:,} of {found.n_right + len(found.damaged):,} materials right.{advice}"
+        )
+    if not found.ok:
+        raise typer.Exit(1)

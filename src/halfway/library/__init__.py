@@ -14,6 +14,7 @@ from .plan import PcaPlan
 from .procedural import ProceduralLibrary
 from .stored import StoredLibrary
 from .subset import Subset, most_different
+from .verifying import Verdict, verify_library
 
 __all__ = [
     "DEFAULT_LIBRARY",
@@ -32,9 +33,11 @@ __all__ = [
     "SphereOperator",
     "StoredLibrary",
     "Subset",
+    "Verdict",
     "build_library",
     "compact_library",
     "library_called",
     "most_different",
     "open_library",
+    "verify_library",
 ]

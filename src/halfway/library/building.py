@@ -18,10 +18,10 @@ import numpy as np
 from .._types import Table
 from ..brdf import TabularBrdf
 from ..errors import LibraryError, OutputError
-from ..files import install, require_space, scratch_folder
+from ..files import lock, require_space, scratch_folder
 from ..formats import Found, Skipped, find_brdfs
 from ..halfdiff import MERL, Grid
-from ..places import Place
+from ..places import Place, RemotePath
 from ..tasks import THREADS, Engine, Track, run, silent
 from .library import Origin
 from .stored import (
@@ -75,7 +75,7 @@ def build_library(
     require_space(path.parent, 12 * len(found) * grid.size, f"a library of {len(found)} materials")
     with scratch_folder(path) as folder:
         entries = _write_tables(folder / "tables.npy", found, grid, track, engine)
-        tables = tables_name(library_checksum(entries, grid))
+        tables = tables_name(library_checksum(entries, grid), path)
         description = {
             "format": FORMAT,
             "grid": [asdict(axis) for axis in grid.axes],
@@ -85,18 +85,39 @@ def build_library(
         }
         (folder / "tables.npy").rename(folder / tables)
         (folder / DESCRIPTION).write_text(json.dumps(description, indent=1))
-        old = _tables_of(path)
-        install(folder, path, last=DESCRIPTION)
-    if old is not None and old.name != tables:
-        old.unlink(missing_ok=True)
+        if isinstance(path, RemotePath):
+            _put(folder, path, tables)
+        else:
+            _move(folder, path, tables)
     return Built(StoredLibrary(path), skipped)
 
 
-def _tables_of(path: Place) -> Place | None:
-    """The tables of the library that is at ``path``, if there is one."""
+def _move(folder: Path, path: Path, tables: str) -> None:
+    """Rename the whole folder; where a library is there already, its tables first, then its description."""
+    try:
+        folder.rename(path)
+    except OSError:
+        if not path.is_dir():
+            raise
+    else:
+        return
+    with lock(path, wait=True):
+        for name in (tables, DESCRIPTION):
+            (folder / name).replace(path / name)
+        for old in path.glob("tables-*.npy"):
+            if old.name != tables:
+                old.unlink()
+
+
+def _put(folder: Path, path: RemotePath, tables: str) -> None:
+    """As `_move`, where nothing can be renamed or locked: no other builder has tables of this name."""
+    old = None
     with suppress(LibraryError):
-        return StoredLibrary(path).tables
-    return None
+        old = StoredLibrary(path).tables
+    for name in (tables, DESCRIPTION):
+        (path / name).put(folder / name)
+    if old is not None:
+        old.unlink(missing_ok=True)
 
 
 def _refuse_foreign_folder(path: Place) -> None:

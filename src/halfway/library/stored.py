@@ -5,9 +5,9 @@
         tables-0123456789ab.npy
                        float32, channel-major (3, N, p): a channel of a block is N contiguous runs
 
-library.json names the file of tables, whose own name is the beginning of the library's checksum. So a library is replaced by
-putting its new tables beside the old ones and then, at once, the new library.json: whoever looks, and whatever crashes,
-there is one whole library. The folder may be remote (``s3://bucket/NAME.brdflib``), and is read in ranges.
+library.json names the file of tables, whose own name begins like the library's checksum. So a library is replaced by putting
+its new tables beside the old ones and then, at once, the new library.json: whoever looks, and whatever crashes, there is
+one whole library. The folder may be remote (``s3://bucket/NAME.brdflib``), and is read in ranges.
 
 Blocks are read into memory of their own: pages of a map would count as memory until the whole file does (1.1 GB where this
 takes .1).
@@ -21,6 +21,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
+from secrets import token_hex
 from typing import Any
 
 import numpy as np
@@ -62,7 +63,17 @@ class StoredLibrary(Library):
     def __init__(self, path: Place) -> None:
         self.path = path
         """Its folder."""
-        description = _read_description(path)
+        description = None
+        # It may be replaced while we look: then there is another description.
+        while description != (found := _read_description(path)):
+            description = found
+            self._describe(found)
+            if self.tables.is_file():
+                break
+        self._start = self._check_tables()
+
+    def _describe(self, description: dict[str, Any]) -> None:
+        path = self.path
         try:
             self.grid = Grid(tuple(Axis(**axis) for axis in description["grid"]))
             self.entries = tuple(Entry(**entry) for entry in description["materials"])
@@ -81,7 +92,6 @@ class StoredLibrary(Library):
             material_checksum(entry.name, self.grid, entry.sha256.encode())
             for entry in self.entries
         )
-        self._start = self._check_tables()
 
     @property
     def address(self) -> str:
@@ -145,9 +155,13 @@ def library_checksum(entries: Sequence[Entry], grid: Grid) -> str:
     return hashlib.sha256(repr((parts, grid)).encode()).hexdigest()
 
 
-def tables_name(checksum: str) -> str:
-    """What the file of the tables of a library with this checksum is called."""
-    return f"tables-{checksum[:12]}.npy"
+def tables_name(checksum: str, path: Place) -> str:
+    """What the file of the tables of a library with this checksum is called.
+
+    Nobody can be kept from putting files at a URL meanwhile: there the name is used once.
+    """
+    once = token_hex(6) if isinstance(path, RemotePath) else ""
+    return f"tables-{checksum[:12]}{once}.npy"
 
 
 def npy_header(shape: tuple[int, ...]) -> bytes:
