@@ -39,8 +39,9 @@ test: lint viewer chromium ## every check
 docs: setup     ## the site, in docs/_build/html; every warning is an error
 	$(RUN) sphinx-build -E -W --keep-going -q -b html docs docs/_build/html
 
-bench: setup    ## speed, as ratios measured in one run
-	$(RUN) pytest benchmarks -s --benchmark-only --benchmark-columns=median,rounds -o python_files='bench_*.py' -o python_functions='bench_* test_*' -o addopts=''
+bench: setup    ## speed, as ratios measured in one run; a table at the end, and in docs/benchmarks.md
+	$(RUN) pytest benchmarks -s -q -o python_files='bench_*.py' -o python_functions='bench_* test_*' -o addopts='--benchmark-columns=median,rounds'
+	$(RUN) python benchmarks/table.py
 
 pictures: setup ## regenerate the pictures of the README
 	$(RUN) python docs/pictures.py

@@ -1,20 +1,23 @@
-"""Libraries, components, routes and mixes against what a user would otherwise use, each pair in one run.
+"""Components: against scikit-learn, numpy, and reading the bytes once; how they grow with N and p; what a task costs.
 
-100 materials on the MERL grid, stored on disk: 1.75 GB in the folder of temporary files.
+100 materials on the MERL grid, stored on disk: 1.75 GB in the folder of temporary files. What takes minutes there is measured on
+half as many angles of each kind (an eighth of the cells), both sides alike.
 """
 
 import json
 import subprocess
 import sys
 import time
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
+from conftest import race, ratio
 from sklearn.decomposition import PCA
 
-from halfway import PaperSpace, Pca, Recipe, Route, build_library
-from halfway.library import StoredLibrary
-from halfway.space import Mixer
+from halfway import Grid, Pca, build_library
+from halfway.library import ProceduralLibrary
+from halfway.tasks import run
 
 FIT = """
 import json, sys, time
@@ -31,79 +34,122 @@ print(json.dumps({"seconds": time.perf_counter() - start, "megabytes": peak() - 
 
 
 @pytest.fixture(scope="module")
-def library(tmp_path_factory):
-    return build_library(
-        ["builtin:merl-abc"], tmp_path_factory.mktemp("bench") / "merl.brdflib"
-    ).library
+def channel(library):
+    """One channel in float64, as scikit-learn wants it."""
+    blocks = [library.columns(block)[0].astype(np.float64) for block in library.blocks()]
+    return np.nan_to_num(np.concatenate(blocks, axis=1))
 
 
-@pytest.fixture(scope="module")
-def route(library):
-    space = PaperSpace.fit(library, Pca.fit(library))
-    return Route.through(space, ["cherry-235", "tungsten-carbide"])
-
-
-@pytest.mark.benchmark(group="components of 100 materials, three channels")
-def bench_components(benchmark, library: StoredLibrary):
-    """Ours in a process of its own, for its memory; scikit-learn's randomized solver on one channel, times three."""
-    fits: list[dict[str, float]] = []
-
-    def fit():
-        command = [sys.executable, "-c", FIT, str(library.path)]
-        fits.append(json.loads(subprocess.run(command, check=True, capture_output=True).stdout))
-
-    benchmark.pedantic(fit, rounds=3)
-    seconds = float(np.median([found["seconds"] for found in fits]))
-    tables = np.load(library.tables, mmap_mode="r")
+def bench_components(figures, library, channel):
+    """Ours in a process of its own, for its memory, three channels; theirs one channel, times three."""
+    command = [sys.executable, "-c", FIT, str(library.path)]
+    fits = [json.loads(subprocess.check_output(command)) for _ in range(3)]
+    ours = float(np.median([fit["seconds"] for fit in fits]))
+    note = f"{ours:.2f} s, {max(fit['megabytes'] for fit in fits):.0f} MB above the interpreter"
     start = time.perf_counter()
-    channel = np.nan_to_num(np.array(tables[0], np.float64))
     PCA(45, svd_solver="randomized", random_state=0).fit(channel)
     theirs = 3 * (time.perf_counter() - start)
-    start = time.perf_counter()
-    for block in library.blocks():
-        library.columns(block)
-    stream = time.perf_counter() - start
-    benchmark.extra_info |= {
-        "seconds": round(seconds, 2),
-        "megabytes above the interpreter": round(max(found["megabytes"] for found in fits)),
-        "scikit-learn randomized / ours": round(theirs / seconds, 1),
-        "ours / reading the bytes": round(seconds / stream, 2),
+    what = "components of 100 materials"
+    figures.note(what, "scikit-learn randomized / ours", theirs / ours, goal=">= 10", note=note)
+
+    def stream():
+        for _ in run(library.columns, library.blocks()):
+            pass
+
+    seconds = race(lambda: Pca.fit(library), stream, rounds=3)
+    figures.note(what, "ours / reading the bytes once", ratio(seconds, 0, 1), goal="<= 2")
+
+
+def bench_components_exactly(figures, channel):
+    """The exact decompositions, on every eighth cell."""
+    x = np.ascontiguousarray(channel[:, ::8])
+    rows = {f"m{i:03}": row for i, row in enumerate(x)}
+    grid = Grid.merl(45, 45, 90)
+    library = tabular(rows, grid, x.shape[1])
+    u = x - x.mean(axis=0)
+    seconds = race(
+        lambda: Pca.fit(library),
+        lambda: PCA(svd_solver="full").fit(x),
+        lambda: np.linalg.svd(u, full_matrices=False),
+        rounds=1,
+    )
+    what = "components of 100 materials, 182,250 cells"
+    # Ours has three channels, theirs one.
+    figures.note(what, "scikit-learn full / ours", 3 * ratio(seconds, 1, 0))
+    figures.note(what, "numpy SVD / ours", 3 * ratio(seconds, 2, 0))
+
+
+def bench_growth(figures):
+    """Exponents in the number of materials N and of cells p: of seconds ~ N^a p^b, by least squares on logarithms."""
+    rng = np.random.default_rng(0)
+    sizes = [(50, 36), (100, 36), (200, 36), (400, 36), (200, 24), (200, 48), (200, 60)]
+    rows, seconds = [], []
+    for n, side in sizes:
+        grid = Grid.merl(side, side, 2 * side)
+        samples = rng.random((n, grid.size), np.float32)
+        library = tabular({f"m{i}": row for i, row in enumerate(samples)}, grid, grid.size)
+        rows.append([np.log(n), np.log(grid.size), 1.0])
+        seconds.append(np.log(race(lambda library=library: Pca.fit(library), rounds=3).min()))
+    a, b, _ = np.linalg.lstsq(np.array(rows), np.array(seconds), rcond=None)[0]
+    figures.note(
+        "growth of components, N = 50 to 400", "exponent in N", a, note="2 is the product's"
+    )
+    figures.note(
+        "growth of components, p = 28 to 432 thousand",
+        "exponent in p",
+        b,
+        note="1 is the product's",
+    )
+
+
+def tabular(rows, grid, size):
+    """A library held in memory, the same samples in each channel."""
+    from halfway import TabularBrdf
+
+    values = {
+        name: np.broadcast_to(row.astype(np.float32)[:size], (3, size)).reshape(3, *grid.shape)
+        for name, row in rows.items()
     }
-    print(f"\n{benchmark.extra_info}")
-
-
-@pytest.mark.benchmark(group="10,000 recipes of a route")
-def bench_recipes(benchmark, route: Route):
-    ts = np.arange(1, 10_001) / 10_000
-    benchmark.pedantic(lambda: json.dumps(route.to_json(ts)), rounds=3)
-
-
-@pytest.mark.benchmark(group="mix of 4 materials")
-def bench_mix(benchmark, library: StoredLibrary):
-    """Ours; numpy's weighted sum of the same rows; and copying one table's bytes, as ratios."""
-    names = library.names[:4]
-    recipe = Recipe.of(library.name, dict(zip(names, (0.1, 0.2, 0.3, 0.4), strict=True)))
-    mixer = Mixer(library)
-    mixer.mix(recipe)
-    benchmark.pedantic(lambda: mixer.mix(recipe), rounds=10)
-    rows = [library.row(i) for i in range(4)]
-    weights = recipe.weights[0]
-
-    def naive():
-        return sum(w * row.astype(np.float64) for w, row in zip(weights, rows, strict=True))
-
-    ours = benchmark.stats.stats.median
-    benchmark.extra_info |= {
-        "numpy / ours": round(_median(naive) / ours, 2),
-        "ours / copying a table": round(ours / _median(rows[0].copy), 1),
+    tables = {
+        name: TabularBrdf(np.ascontiguousarray(v), grid, name=name) for name, v in values.items()
     }
-    print(f"\n{benchmark.extra_info}")
+    return ProceduralLibrary("bench", tables, grid=grid)
 
 
-def _median(f) -> float:
-    times = []
-    for _ in range(5):
-        start = time.perf_counter()
-        f()
-        times.append(time.perf_counter() - start)
-    return float(np.median(times))
+def bench_tasks(figures):
+    n = 20_000
+
+    def plain():
+        with ThreadPoolExecutor(2) as pool:
+            list(pool.map(abs, range(n)))
+
+    seconds = race(lambda: list(run(abs, range(n))), plain, rounds=5)
+    each = 1e6 * float(np.median(seconds[:, 0])) / n
+    figures.note(
+        "20,000 empty tasks on threads",
+        "ours / Executor.map",
+        ratio(seconds, 0, 1),
+        note=f"{each:.0f} us a task",
+    )
+
+
+def bench_build(figures, library, tmp_path):
+    """Ingest: a library of MERL files against copying the same bytes."""
+    from halfway.formats import write_merl
+
+    for name in library.names[:12]:
+        write_merl(tmp_path / "files" / f"{name}.binary", library.brdf(name))
+    files = sorted((tmp_path / "files").iterdir())
+
+    def copy():
+        with (tmp_path / "copy").open("wb") as out:
+            for path in files:
+                out.write(path.read_bytes()[: path.stat().st_size // 2])
+
+    seconds = race(lambda: build_library(files, tmp_path / "some.brdflib"), copy, rounds=3)
+    figures.note(
+        "library of 12 MERL files",
+        "ours / reading them, writing half the bytes",
+        ratio(seconds, 0, 1),
+        note="checksums of files and tables",
+    )

@@ -6,10 +6,11 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from halfway import LinearSpace, Route
+from halfway import LinearSpace, Route, TabularBrdf, build_library, mix, open_library
 from halfway.errors import OutputError
 from halfway.export import write_route
-from halfway.formats import read_merl
+from halfway.formats import read_brdf, read_merl, write_merl
+from halfway.library import ProceduralLibrary
 
 
 @pytest.fixture
@@ -68,6 +69,53 @@ def test_another_route_in_the_same_folder_keeps_no_stale_table(route, small_libr
         small_library.brdf("material-2").values,
         rtol=1e-6,
     )
+
+
+def test_a_library_that_moved_keeps_the_tables(small_library, tmp_path):
+    for name in small_library.names[:2]:
+        write_merl(tmp_path / "measured" / f"{name}.binary", small_library.brdf(name))
+    library = build_library([tmp_path / "measured"], tmp_path / "here" / "some.brdflib").library
+    route = Route.through(LinearSpace("some", library.names), library.names)
+    write_route(tmp_path / "route", route, route.steps(4), library, format="merl")
+    (tmp_path / "here").rename(tmp_path / "there")
+    moved = open_library(tmp_path / "there" / "some.brdflib")
+    again = write_route(tmp_path / "route", route, route.steps(4), moved, format="merl")
+    assert again == (0, 4)
+    document = json.loads((tmp_path / "route" / "recipes.json").read_text())
+    assert document["library_address"] == moved.address
+
+
+def test_the_same_route_without_tables_keeps_those_that_are_there(route, small_library, tmp_path):
+    write_route(tmp_path, route, route.steps(4), small_library, format="merl")
+    assert write_route(tmp_path, route, route.steps(4), small_library) == (0, 0)
+    assert write_route(tmp_path, route, route.steps(4), small_library, format="merl") == (0, 4)
+
+
+@pytest.mark.parametrize("factor", [1, 1e6])
+def test_a_zarr_store_holds_the_tables_in_half_precision(small_library, tmp_path, factor):
+    import zarr
+
+    bright = {
+        name: TabularBrdf(factor * small_library.brdf(name).values, small_library.grid)
+        for name in small_library.names[:2]
+    }
+    library = ProceduralLibrary("bright", bright, grid=small_library.grid)
+    route = Route.through(LinearSpace("bright", library.names), library.names)
+    write_route(tmp_path, route, route.steps(3), library, format="zarr")
+    tables = zarr.open_array(str(tmp_path / "tables.zarr"), mode="r")
+    scale = tables.attrs["scale"]
+    largest = max(np.nanmax(table.values) for table in bright.values())
+    assert tables.shape == (3, 3, *library.grid.shape)
+    assert scale == 1 if factor == 1 else 30_000 < largest / scale <= 60_000
+    for i, recipe in enumerate(route.recipes(route.steps(3))):
+        expected = mix(library, recipe).values
+        found = np.asarray(tables[i], np.float32) * scale
+        assert_allclose(found, expected, rtol=2**-11, atol=scale * 2**-25)
+
+
+def test_rgl_files_are_read_by_their_reader(route, small_library, tmp_path):
+    assert write_route(tmp_path, route, route.steps(2), small_library, format="bsdf") == (2, 0)
+    assert read_brdf(tmp_path / "001.bsdf").is_isotropic
 
 
 def test_a_foreign_recipes_json_is_not_touched(route, small_library, tmp_path):

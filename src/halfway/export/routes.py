@@ -76,13 +76,14 @@ def write_route(
     text = json.dumps(document)
     recipes = route.recipes(ts)
     tables = _tables(format, recipes, library)
+    # Not the library's address: a library that moves is the same.
     made = {
         "by": "route",
         "library": library.name,
         "library_checksum": library.checksum,
-        "recipes_sha256": hashlib.sha256(text.encode()).hexdigest(),
+        "recipes_sha256": _sha256(json.dumps(document["recipes"])),
     }
-    outputs: dict[str, Any] = {RECIPES: None} | dict.fromkeys(tables.texts)
+    outputs: dict[str, Any] = {RECIPES: {"sha256": _sha256(text)}} | dict.fromkeys(tables.texts)
     outputs |= dict(zip(tables.names, document["recipes"], strict=False))
     opened = Batch.open(folder, outputs, made=made, n_bytes=tables.n_bytes, track=track)
     with opened as batch:
@@ -146,6 +147,10 @@ def _largest(recipes: Sequence[Recipe], library: Library) -> float:
     """No mix exceeds the largest sample of its ingredients."""
     names = sorted({name for recipe in recipes for name in recipe.names})
     return max(float(np.nanmax(library.row(library.index(name)))) for name in names)
+
+
+def _sha256(text: str) -> str:
+    return hashlib.sha256(text.encode()).hexdigest()
 
 
 def _write_text(path: Place, text: str) -> Checksum:

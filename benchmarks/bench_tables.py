@@ -1,0 +1,197 @@
+"""Tables: read, mixed, written, evaluated, one by one and in batches."""
+
+import json
+from itertools import count
+
+import numpy as np
+import pytest
+from conftest import race, ratio
+from scipy.spatial import Delaunay
+
+from halfway import HalfDiff, PaperSpace, Pca, Recipe, Route, from_half_diff
+from halfway.export import write_route
+from halfway.formats import read_merl, write_merl
+from halfway.formats.merl import SCALES
+from halfway.space import Mixer
+
+STOPS = ["cherry-235", "tungsten-carbide"]
+
+
+@pytest.fixture(scope="module")
+def recipe(library):
+    weights = dict(zip(library.names[:4], (0.1, 0.2, 0.3, 0.4), strict=True))
+    return Recipe.of(library.name, weights)
+
+
+@pytest.fixture(scope="module")
+def space(library):
+    return PaperSpace.fit(library, Pca.fit(library))
+
+
+@pytest.fixture(scope="module")
+def route(space):
+    return Route.through(space, STOPS)
+
+
+def bench_read(figures, library, tmp_path):
+    path = tmp_path / "one.binary"
+    write_merl(path, library.brdf(library.names[0]))
+
+    def numpy():
+        with path.open("rb") as file:
+            shape = np.fromfile(file, "<i4", 3)
+            samples = np.fromfile(file, "<f8").reshape(3, *shape)
+        return samples * SCALES[:, None, None, None]
+
+    seconds = race(lambda: read_merl(path), numpy, path.read_bytes, rounds=9)
+    what = "read a MERL file, checked, NaN where unmeasured"
+    figures.note(what, "numpy.fromfile and scale / ours", ratio(seconds, 1, 0))
+    figures.note(what, "ours / reading the bytes", ratio(seconds, 0, 2))
+
+
+def bench_mix(figures, library, recipe):
+    """Copying moves as many bytes as a mix reads and writes: four tables in, one out."""
+    mixer = Mixer(library)
+    rows = [library.row(i) for i in range(4)]
+    stack = np.stack(rows)
+    w = recipe.weights[0]
+    w32 = w.astype(np.float32)
+    moved = np.empty((5 * rows[0].size) // 2, np.float32)
+    source = np.concatenate([row.ravel() for row in rows])[: moved.size].copy()
+
+    def naive():
+        return sum(a * row.astype(np.float64) for a, row in zip(w, rows, strict=True))
+
+    seconds = race(
+        lambda: mixer.mix(recipe),
+        naive,
+        lambda: np.einsum("i,ijk->jk", w32, stack),
+        lambda: np.copyto(moved, source),
+        rounds=15,
+    )
+    what = "mix of 4 materials"
+    note = f"{1e3 * np.median(seconds[:, 0]):.1f} ms"
+    figures.note(what, "numpy, float64 / ours", ratio(seconds, 1, 0), note=note)
+    figures.note(what, "numpy.einsum, float32 / ours", ratio(seconds, 2, 0))
+    figures.note(what, "ours / copying as many bytes", ratio(seconds, 0, 3), goal="<= 1.5")
+
+
+def bench_mix_and_write(figures, library, recipe, tmp_path):
+    mixer = Mixer(library)
+    write_merl(tmp_path / "first.binary", mixer.mix(recipe))
+    content = (tmp_path / "first.binary").read_bytes()
+    number = count()
+
+    def ours():
+        write_merl(tmp_path / f"{next(number)}.binary", mixer.mix(recipe))
+
+    def raw():
+        (tmp_path / f"{next(number)}.raw").write_bytes(content)
+
+    seconds = race(ours, raw, rounds=15)
+    figures.note(
+        "mix and write a MERL file", "ours / writing the bytes", ratio(seconds, 0, 1), goal="<= 1.5"
+    )
+
+
+def bench_batch(figures, library, route, tmp_path):
+    """A batch of 24 tables with checksums and manifest, on threads, against writing the same bytes one after another."""
+    content = bytes(34_992_012)
+    number = count()
+
+    def ours():
+        write_route(tmp_path / f"{next(number)}", route, route.steps(24), library, format="merl")
+
+    def raw():
+        folder = tmp_path / f"{next(number)}"
+        folder.mkdir()
+        for i in range(24):
+            (folder / f"{i}.raw").write_bytes(content)
+
+    seconds = race(ours, raw, rounds=2)
+    rate = 24 / float(np.median(seconds[:, 0]))
+    figures.note(
+        "batch of 24 MERL files, with checksums",
+        "ours / writing the bytes",
+        ratio(seconds, 0, 1),
+        goal="<= 1.5",
+        note=f"{rate:.1f} files/s",
+    )
+
+
+def bench_recipes(figures, library, space):
+    """Ten thousand recipes as JSON, against looking every point up in scipy's triangulation, without the JSON."""
+    ts = np.arange(1, 10_001) / 10_000
+    scores = Pca.fit(library).scores(3)
+    triangulations = [Delaunay(points) for points in scores]
+    i, j = (library.names.index(stop) for stop in STOPS)
+
+    def scipy():
+        for points, triangulation in zip(scores, triangulations, strict=True):
+            x = points[i] + ts[:, None] * (points[j] - points[i])
+            simplex = triangulation.find_simplex(x)
+            transform = triangulation.transform[simplex]
+            b = np.einsum("nij,nj->ni", transform[:, :3], x - transform[:, 3])
+            weights = np.column_stack([b, 1 - b.sum(axis=1)])
+            vertices = triangulation.simplices[simplex]
+            [
+                {library.names[v]: a for v, a in zip(vs, ws, strict=True)}
+                for vs, ws in zip(vertices, weights.tolist(), strict=True)
+            ]
+
+    def ours():
+        return json.dumps(Route.through(space, STOPS).to_json(ts))
+
+    seconds = race(ours, scipy, rounds=5)
+    note = f"{np.median(seconds[:, 0]):.2f} s, solved and as JSON"
+    figures.note(
+        "10,000 recipes of a route", "scipy find_simplex / ours", ratio(seconds, 1, 0), note=note
+    )
+
+
+def bench_evaluation(figures, library):
+    """A million pairs, interpolated: against eight gathers blended in numpy without a look at what is unmeasured."""
+    table = library.brdf("gold-paint")
+    rng = np.random.default_rng(0)
+    n = 1_000_000
+    theta_h, theta_d = np.pi / 2 * rng.random((2, n)) * 0.5
+    wi, wo = from_half_diff(HalfDiff(theta_h, np.zeros(n), theta_d, np.pi * rng.random(n)))
+    values = np.ascontiguousarray(np.moveaxis(table.values, 0, -1)).reshape(-1, 3)
+
+    def gathers():
+        coordinates = naive_coordinates(wi, wo)
+        total = 0.0
+        for corner in np.ndindex(2, 2, 2):
+            index, weight = 0, 1.0
+            for x, size, step in zip(coordinates, (90, 90, 180), corner, strict=True):
+                low = np.floor(x)
+                weight = weight * np.abs(1 - step - (x - low))
+                index = index * size + np.minimum(low.astype(int) + step, size - 1)
+            total = total + weight[:, None] * values[index]
+        return total
+
+    seconds = race(
+        lambda: table.eval(wi, wo),
+        gathers,
+        lambda: table.eval(wi, wo, interpolation="floor"),
+        rounds=3,
+    )
+    what = "evaluate a million pairs, interpolated"
+    note = f"{np.median(seconds[:, 0]):.2f} s"
+    figures.note(what, "eight gathers in numpy / ours", ratio(seconds, 1, 0), note=note)
+    figures.note(what, "ours / our floor lookup", ratio(seconds, 0, 2))
+
+
+def naive_coordinates(wi, wo):
+    """Fractional indices of pairs in a MERL table, by the arc cosines of Rusinkiewicz's definition."""
+    h = wi + wo
+    h /= np.linalg.norm(h, axis=-1, keepdims=True)
+    theta_h = np.arccos(np.clip(h[..., 2], -1, 1))
+    phi_h = np.arctan2(h[..., 1], h[..., 0])
+    c, s = np.cos(-phi_h), np.sin(-phi_h)
+    x, y = c * wi[..., 0] - s * wi[..., 1], s * wi[..., 0] + c * wi[..., 1]
+    c, s = np.cos(-theta_h), np.sin(-theta_h)
+    x, z = c * x + s * wi[..., 2], c * wi[..., 2] - s * x
+    theta_d = np.arccos(np.clip(z, -1, 1))
+    phi_d = np.arctan2(y, x) % np.pi
+    return 90 * np.sqrt(theta_h / (np.pi / 2)), 90 * theta_d / (np.pi / 2), 180 * phi_d / np.pi

@@ -1,0 +1,106 @@
+"""What the benchmarks share: races in one run, and the one table at the end.
+
+A figure is a ratio. Both sides are timed in turn, round by round, so that what else the machine does hits both alike; the ratio is
+the median over the rounds. The table is printed when all is done, and written to figures.json for `table.py`.
+"""
+
+import json
+import os
+import platform
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+FIGURES = Path(__file__).parent / "figures.json"
+
+
+@dataclass(frozen=True)
+class Figure:
+    """One line of the table."""
+
+    what: str
+    compared: str
+    """What the ratio is of: ``theirs / ours`` where larger is better, ``ours / limit`` where smaller is."""
+    ratio: float
+    goal: str = ""
+    """``<= 1.5`` or ``>= 10``, where one was set."""
+    note: str = ""
+    """What one side takes, as measured."""
+
+    @property
+    def missed(self) -> bool:
+        sign, _, number = self.goal.partition(" ")
+        return (
+            bool(sign)
+            and not {"<=": self.ratio <= float(number), ">=": self.ratio >= float(number)}[sign]
+        )
+
+
+class Figures(list[Figure]):
+    """The table so far."""
+
+    def note(
+        self, what: str, compared: str, ratio: float, *, goal: str = "", note: str = ""
+    ) -> None:
+        self.append(Figure(what, compared, float(f"{ratio:.3g}"), goal, note))
+
+
+def race(*runners: Callable[[], object], rounds: int = 7) -> np.ndarray:
+    """Seconds of each of the runners in each round, (rounds, runners), in turn; one round before that warms up."""
+    seconds = np.empty((rounds + 1, len(runners)))
+    for times in seconds:
+        for i, run in enumerate(runners):
+            start = time.perf_counter()
+            run()
+            times[i] = time.perf_counter() - start
+    return seconds[1:]
+
+
+def ratio(seconds: np.ndarray, i: int, j: int) -> float:
+    """How many times longer runner i takes than runner j."""
+    return float(np.median(seconds[:, i] / seconds[:, j]))
+
+
+@pytest.fixture(scope="session")
+def figures(request: pytest.FixtureRequest) -> Iterator[Figures]:
+    found = Figures()
+    request.config.stash[_KEY] = found
+    yield found
+    about = {
+        "cores": os.cpu_count(),
+        "machine": platform.machine(),
+        "python": platform.python_version(),
+    }
+    about["date"] = time.strftime("%Y-%m-%d")
+    FIGURES.write_text(
+        json.dumps({"about": about, "figures": [asdict(f) for f in found]}, indent=1)
+    )
+
+
+_KEY = pytest.StashKey[Figures]()
+
+
+def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
+    found = terminalreporter.config.stash.get(_KEY, None)
+    if not found:
+        return
+    terminalreporter.section("figures: ratios measured in this run")
+    for f in found:
+        goal = f"goal {f.goal}{': missed' if f.missed else ''}" if f.goal else ""
+        terminalreporter.write_line(
+            f"{f.what:44}  {f.compared:44}  {f.ratio:8.4g}  {goal:22}  {f.note}"
+        )
+
+
+@pytest.fixture(scope="session")
+def library(tmp_path_factory: pytest.TempPathFactory):
+    """The built-in library, stored: 100 materials on the MERL grid."""
+    from halfway import build_library
+
+    return build_library(
+        ["builtin:merl-abc"], tmp_path_factory.mktemp("bench") / "merl.brdflib"
+    ).library
