@@ -2,7 +2,7 @@
 Materials as points
 ===================
 
-The first two scores of the red channel, and their Delaunay triangulation: the paper's Figure 2, around the origin.
+The first two scores of the red channel, and their Delaunay triangulation: the paper's Figure 2.
 """
 
 import matplotlib.pyplot as plt
@@ -15,19 +15,16 @@ library = open_library("builtin:merl-abc")
 points = Pca.fit(library).scores(2)[0]
 
 # %%
-# A few mirror-like materials stand far away, so the picture shows where the middle 80 % are.
+# A few mirror-like materials stand far away: the axes are linear around the origin and logarithmic beyond.
 
-left_bottom, right_top = np.percentile(points, [10, 90], axis=0)
-inside = ((points > left_bottom) & (points < right_top)).all(axis=1)
+named = ("blue-fabric", "cherry-235", "gold-paint", "chrome", "steel", "pearl-paint", "teflon")
 
 figure, ax = plt.subplots(figsize=(9, 6), layout="constrained")
+ax.set_xscale("asinh", linear_width=np.median(np.abs(points[:, 0])))
+ax.set_yscale("asinh", linear_width=np.median(np.abs(points[:, 1])))
 ax.triplot(*points.T, Triangulation.of(points).simplices, color="#c8442f", lw=0.5, alpha=0.5)
 ax.plot(*points.T, "o", color="#c8442f", ms=4)
-for i in np.flatnonzero(inside)[::3]:
-    ax.annotate(library.names[i], points[i], xytext=(4, 4), textcoords="offset points", fontsize=8)
-ax.set(
-    xlim=(left_bottom[0], right_top[0]),
-    ylim=(left_bottom[1], right_top[1]),
-    xlabel="score 1 (1/sr)",
-    ylabel="score 2 (1/sr)",
-)
+for name in named:
+    at = points[library.index(name)]
+    ax.annotate(name, at, xytext=(6, 6), textcoords="offset points", fontsize=9)
+ax.set(xlabel="score 1 (1/sr)", ylabel="score 2 (1/sr)")
