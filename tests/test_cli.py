@@ -28,6 +28,7 @@ COMMANDS = [
     "reproduce",
     "space",
     "check",
+    "fit",
     "convert",
     "info",
     "fetch",
@@ -218,6 +219,18 @@ def test_convert_and_info(run, lib, tmp_path):
     assert "names no format" in run("convert", "one.binary", "one.exr")[2]
 
 
+def test_fit_says_how_far_off_it_is_and_writes_what_the_suffix_names(run, tmp_path):
+    code, out, _ = run("fit", "teflon", "-o", "teflon.glb")
+    assert (code, out.startswith("teflon, as glTF 2.0 metallic-roughness: ")) == (0, True)
+    assert (tmp_path / "teflon.glb").read_bytes().startswith(b"glTF")
+    (document,) = json.loads(run("fit", "teflon", "--model", "gltf", "--json")[1])
+    assert f"{document['error']['psnr']:.1f} dB" in out
+    assert run("convert", "teflon", "teflon.gltf")[0] == 0
+    (material,) = json.loads((tmp_path / "teflon.gltf").read_text())["materials"]
+    colour = material["pbrMetallicRoughness"]["baseColorFactor"]
+    assert colour[:3] == document["parameters"]["base_color"]
+
+
 def test_report_prints_table_1_and_writes_figures(run, lib, tmp_path):
     code, out, _ = run("report", lib, "-o", "report")
     assert code == 0
@@ -252,6 +265,9 @@ def test_report_prints_table_1_and_writes_figures(run, lib, tmp_path):
         ),
         (["mix", "teflon=0.5", "-o", "x.binary"], "sum to 0.5: they must sum to 1"),
         (["mix", "teflon=1", "-o", "x.tiff"], "has the suffix '.tiff', which names no format"),
+        (["fit", "teflon", "-o", "x.obj"], "names no format of fitted models: expected .mtlx"),
+        (["fit", "teflon", "chrome", "-o", "x.mtlx"], "2 materials are given: -o and --picture"),
+        (["fit", "teflom"], "'teflom' is not one of the 100 materials"),
         (["mix", "absent.json", "-o", "x.binary"], "absent.json: No such file or directory"),
         (["library", "build", "absent", "-o", "x.brdflib"], "absent does not exist"),
         (["render", "absent.binary", "-o", "x.png"], "there is no file absent.binary"),

@@ -16,7 +16,12 @@ if TYPE_CHECKING:
 
 def convert(
     source: Annotated[str, typer.Argument(metavar="IN", help="A file, LIB:NAME or a recipe.")],
-    output: Annotated[Path, typer.Argument(metavar="OUT", help=".binary (MERL) or .bsdf (RGL).")],
+    output: Annotated[
+        Path,
+        typer.Argument(
+            metavar="OUT", help=".binary (MERL) or .bsdf (RGL); .mtlx, .gltf, .glb: a fitted model."
+        ),
+    ],
     spectral: Annotated[
         bool, typer.Option(help="A .bsdf with spectra, for pbrt-v4 and spectral Mitsuba.")
     ] = False,
@@ -26,7 +31,10 @@ def convert(
     \b
     halfway convert gold.binary gold.bsdf
     halfway convert builtin:merl-abc:teflon teflon.bsdf --spectral
+    halfway convert gold.binary gold.mtlx                               an analytic fit: see halfway fit
     """
+    from halfway.export.fits import MODEL_OF, write_fit
+    from halfway.fit import fit
     from halfway.formats import write_brdf, write_rgl
 
     from .arguments import ArgumentError
@@ -42,6 +50,10 @@ def convert(
             f"{output}: {n_theta_i} x {side} x {side}, {written.quality.psnr:.1f} dB on a lit sphere, "
             f"{written.quality.relative_l1:.2%} mean error"
         )
+    elif output.suffix in MODEL_OF:
+        found = fit(material.load(), MODEL_OF[output.suffix], name=material.label)
+        write_fit(output, found)
+        say(f"{output}: {found.name}, {found.summary}")
     else:
         write_brdf(output, material.table())
         say(f"{output}: {material.label}")
