@@ -1,0 +1,142 @@
+"""The widget without a browser: its traits, and the messages that it answers."""
+
+import asyncio
+import json
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import nbformat
+import pytest
+from fastapi.testclient import TestClient
+
+from halfway.errors import HalfwayError, LibraryError, SpaceError
+from halfway.library import Library
+from halfway.notebook import Explorer
+from halfway.notebook.messages import Answerer
+from halfway.server.app import app_of
+from halfway.server.explorer import Explorer as Answers
+from halfway.server.schema import Place
+
+EXAMPLE = Path(__file__).parents[1] / "examples" / "explore.ipynb"
+ENDS = ["material-0", "material-4"]
+
+
+@pytest.fixture(scope="module")
+def answers(small_library: Library) -> Answers:
+    return Answers(small_library)
+
+
+@pytest.fixture
+def explorer(small_library: Library) -> Explorer:
+    return Explorer(small_library, ENDS, space="linear", pace="uniform", cache=None)
+
+
+def test_the_recipe_follows_the_place(explorer: Explorer) -> None:
+    seen: list[dict[str, float]] = []
+    explorer.observe(lambda change: seen.append(change.new.to_json()["weights"]), "recipe")
+    explorer.t = 0.25
+    explorer.stops = ["material-1", "material-2", "material-3"]
+    assert seen == [
+        {"material-0": 0.75, "material-4": 0.25},
+        {"material-1": 0.5, "material-2": 0.5},
+    ]
+    assert explorer.route.stops == ("material-1", "material-2", "material-3")
+
+
+def test_at_a_free_place_the_recipe_is_that_of_the_space(
+    explorer: Explorer, answers: Answers
+) -> None:
+    explorer.space = "anchored"
+    middle = answers.space("anchored").points.mean(axis=0).tolist()  # pyright: ignore
+    explorer.point = middle
+    place = answers.place(Place(space="anchored", point=middle))
+    assert explorer.recipe.to_json() == place.recipe.model_dump()
+    # Along the route again.
+    explorer.t = 0.0
+    assert explorer.point is None
+    assert explorer.recipe.to_json()["weights"] == {"material-0": 1.0}
+
+
+@pytest.mark.parametrize(
+    ("trait", "value", "error", "message"),
+    [
+        ("t", 1.5, SpaceError, "t = 1.5 is off the route: expected 0"),
+        ("space", "outer", SpaceError, "there is no space 'outer': expected one of anchored"),
+        ("pace", "brisk", SpaceError, "there is no pace 'brisk': expected one of perceptual"),
+        ("stops", ["material-0"], SpaceError, "a route with 1 stop goes nowhere"),
+        ("stops", ["material-0", "materiel-1"], LibraryError, "did you mean material-1"),
+    ],
+)
+def test_a_place_that_is_none_is_refused(
+    explorer: Explorer, trait: str, value: object, error: type[HalfwayError], message: str
+) -> None:
+    before = getattr(explorer, trait)
+    with pytest.raises(error, match=message):
+        setattr(explorer, trait, value)
+    assert getattr(explorer, trait) == before
+
+
+@pytest.mark.parametrize(
+    ("method", "path", "body"),
+    [
+        ("GET", "api/library", None),
+        ("GET", "api/tables/material-3", None),
+        ("GET", "api/tables/unobtainium", None),
+        ("GET", "api/route?space=linear&pace=uniform&stop=material-0&stop=material-1", None),
+        ("POST", "api/export/merl", {"library": "small", "weights": {"material-1": 1.0}}),
+        ("POST", "api/place", {"space": "linear", "point": [0.0]}),
+        ("GET", "../../etc/passwd", None),
+    ],
+)
+def test_a_message_is_answered_as_a_request(
+    answers: Answers, method: str, path: str, body: dict[str, Any] | None
+) -> None:
+    app = app_of(answers)
+    sent: list[tuple[dict[str, Any], list[bytes]]] = []
+    text = None if body is None else json.dumps(body)
+    message = {"id": 7, "method": method, "path": path, "body": text}
+    Answerer(app, lambda content, buffers: sent.append((content, buffers))).receive(message)
+    client = TestClient(app, base_url="http://localhost", raise_server_exceptions=False)
+    expected = client.request(method, f"/{path}", json=body)
+    ((content, buffers),) = sent
+    assert (content["id"], content["status"]) == (7, expected.status_code)
+    assert buffers == [expected.content]
+    for name, value in content["headers"].items():
+        assert expected.headers[name] == value
+
+
+def test_a_kernel_that_runs_a_loop_answers_in_it(answers: Answers) -> None:
+    sent: list[dict[str, Any]] = []
+    answerer = Answerer(app_of(answers), lambda content, _: sent.append(content))
+
+    async def kernel() -> None:
+        message = {"id": 1, "method": "GET", "path": "api/library", "body": None}
+        answerer.receive(message)
+        assert not sent
+        while not sent:
+            await asyncio.sleep(0.01)
+
+    asyncio.run(asyncio.wait_for(kernel(), 10))
+    assert sent[0]["status"] == 200
+
+
+def test_without_the_extra_one_line_says_how_to_get_it() -> None:
+    code = "import sys; sys.modules['anywidget'] = None; import halfway.notebook"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert done.stderr.splitlines()[-1].endswith(
+        "halfway.notebook needs the package anywidget, which is not installed: expected the extra 'notebook'. "
+        'Install it with `pip install "halfway[notebook]"`.'
+    )
+
+
+def test_the_example_runs_and_carries_no_outputs() -> None:
+    notebook = nbformat.read(EXAMPLE, as_version=4)
+    code = [cell for cell in notebook.cells if cell.cell_type == "code"]
+    assert all(not cell.outputs and cell.execution_count is None for cell in code)
+    script = "\n".join(cell.source for cell in code)
+    done = subprocess.run(
+        [sys.executable, "-c", script], capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stderr
