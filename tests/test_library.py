@@ -239,3 +239,28 @@ def test_a_cache_that_cannot_be_written_costs_only_time(tmp_path):
     (tmp_path / "file").write_text("")
     found = cached(tmp_path / "file" / "cache", "key", lambda: {"a": np.ones(2)})
     np.testing.assert_array_equal(found["a"], np.ones(2))
+
+
+def test_a_library_is_added_to(stored, folder, tmp_path):
+    """The materials that were there stay as they are, and components are completed from the cache."""
+    Pca.fit(stored, cache=tmp_path / "cache")
+    more = tmp_path / "more"
+    more.mkdir()
+    write_merl(more / "new.binary", random_tables(1, TINY, seed=5)["material-0"])
+    grown = build_library([stored.path, more], stored.path).library
+    assert grown.names == (*stored.names, "new")
+    assert grown.entries[:4] == stored.entries
+    assert grown.material_checksums[:4] == stored.material_checksums
+    completed, anew = Pca.fit(grown, cache=tmp_path / "cache"), Pca.fit(grown)
+    assert_allclose(completed.eigenvalues, anew.eigenvalues, atol=1e-10 * anew.eigenvalues.max())
+    with pytest.raises(LibraryError, match=r"material-0 is there twice, as .* Rename one"):
+        build_library([stored.path, folder], stored.path)
+    assert StoredLibrary(stored.path).names == grown.names
+
+
+def test_what_is_no_table_is_sampled_on_the_grid_asked_for(folder, tmp_path):
+    grid = Grid.merl(4, 3, 2)
+    built = build_library(["builtin:synthetic-3"], tmp_path / "s.brdflib", grid=grid).library
+    assert (built.grid, built.names[0]) == (grid, "matte-0000")
+    with pytest.raises(LibraryError, match=r"2 different grids .*4 x 3 x 2"):
+        build_library([folder], tmp_path / "t.brdflib", grid=grid)

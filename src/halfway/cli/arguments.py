@@ -11,6 +11,7 @@ from ..errors import HalfwayError
 from ..places import Place, to_place
 
 if TYPE_CHECKING:
+    from ..halfdiff import Grid
     from ..library import Library
     from ..space import Recipe
 
@@ -57,6 +58,19 @@ def parse_t(text: str) -> list[float]:
                     f"--t {part!r} is no number and no range: expected such as 0,0.25,1 or 0.0001:1:0.0001."
                 )
     return ts
+
+
+def parse_grid(text: str) -> "Grid":
+    """The MERL-like grid written as ``30x30x60``."""
+    from ..halfdiff import Grid
+
+    sizes = text.lower().split("x")
+    if len(sizes) != 3 or not all(size.isdecimal() and 0 < int(size) <= 1000 for size in sizes):
+        raise ArgumentError(
+            f"--grid {text!r} is no grid: expected cells in theta_h, theta_d and phi_d, such as 30x30x60."
+        )
+    n_theta_h, n_theta_d, n_phi_d = map(int, sizes)
+    return Grid.merl(n_theta_h, n_theta_d, n_phi_d)
 
 
 def parse_point(text: str) -> np.ndarray:

@@ -24,21 +24,38 @@ def build(
         str, typer.Option(help="Licence of the measurements, kept in the library.")
     ] = "",
     source: Annotated[str, typer.Option(help="Where they come from, kept in the library.")] = "",
+    grid: Annotated[
+        str,
+        typer.Option(
+            metavar="AxBxC",
+            help="Cells in theta_h, theta_d, phi_d for what is not a table. [default: 90x90x180]",
+        ),
+    ] = "",
     scheduler: Scheduler = "",
 ) -> None:
-    """Tabulate every BRDF found in SOURCE into the library LIB.
+    """Tabulate every BRDF found in SOURCE into the library LIB. A SOURCE may be a library, and LIB itself: that adds to it.
 
     \b
     halfway library build ~/BRDFDatabase/brdfs -o merl.brdflib
     halfway library build merl_nbrdf.zip -o neural.brdflib
     halfway library build ~/BRDFDatabase/brdfs -o s3://bucket/merl.brdflib
+    halfway library build mine.brdflib new.binary -o mine.brdflib
     """
     from halfway.library import Origin, build_library
     from halfway.places import to_place
 
+    from .arguments import parse_grid
+
     origin = Origin("built from files", source, licence) if licence or source else None
     with engine(scheduler) as where:
-        built = build_library(sources, to_place(output), origin=origin, track=track, engine=where)
+        built = build_library(
+            sources,
+            to_place(output),
+            origin=origin,
+            grid=parse_grid(grid) if grid else None,
+            track=track,
+            engine=where,
+        )
     for item in built.skipped:
         say(f"skipped {item.path}: {item.reason}")
     say(

@@ -8,7 +8,7 @@ import hashlib
 import json
 from collections.abc import Sequence
 from contextlib import suppress
-from dataclasses import asdict
+from dataclasses import asdict, astuple
 from functools import partial
 from pathlib import Path
 from typing import NamedTuple
@@ -20,8 +20,9 @@ from ..brdf import TabularBrdf
 from ..errors import LibraryError, OutputError
 from ..files import lock, require_space, scratch_folder
 from ..formats import Found, Skipped, find_brdfs
+from ..formats.find import Credit
 from ..halfdiff import MERL, Grid
-from ..places import Place, RemotePath
+from ..places import Place, RemotePath, to_place
 from ..tasks import THREADS, Engine, Track, run, silent
 from .library import Origin
 from .stored import (
@@ -48,12 +49,14 @@ def build_library(
     path: Place,
     *,
     origin: Origin | None = None,
+    grid: Grid | None = None,
     track: Track = silent,
     engine: Engine = THREADS,
 ) -> Built:
     """Tabulate every BRDF found in ``sources`` (files, folders, zips, ``builtin:NAME``) into a library at ``path``.
 
-    Materials that are not tables are sampled on the grid of those that are, or on the MERL grid.
+    A source may be a stored library, the one at ``path`` as well: so materials are added to it. Materials that are not tables
+    are sampled on ``grid``, by default that of those that are, or else the MERL grid.
 
     Raises
     ------
@@ -62,7 +65,7 @@ def build_library(
     OutputError
         When ``path`` cannot be written or the disk has no room.
     """
-    found, skipped = find_brdfs(sources)
+    found, skipped = _find(sources)
     if not found:
         reasons = "; ".join(f"{item.path}: {item.reason}" for item in skipped[:3])
         raise LibraryError(
@@ -71,7 +74,7 @@ def build_library(
             + ": expected MERL .binary files, NBRDF .h5 files, zips of them, or builtin:NAME."
         )
     _refuse_foreign_folder(path)
-    grid = _common_grid(found)
+    grid = _common_grid(found, grid)
     require_space(path.parent, 12 * len(found) * grid.size, f"a library of {len(found)} materials")
     with scratch_folder(path) as folder:
         entries = _write_tables(folder / "tables.npy", found, grid, track, engine)
@@ -127,8 +130,45 @@ def _refuse_foreign_folder(path: Place) -> None:
         )
 
 
-def _common_grid(found: Sequence[Found]) -> Grid:
+def _find(sources: Sequence[str | Place]) -> tuple[list[Found], list[Skipped]]:
+    """The materials of the libraries among the sources, then the BRDFs in the others."""
+    libraries = [source for source in sources if _is_library(source)]
+    others = [str(source) for source in sources if source not in libraries]
+    kept = [item for source in libraries for item in _materials(StoredLibrary(to_place(source)))]
+    found, skipped = find_brdfs(others)
+    origins: dict[str, str] = {}
+    for item in [*kept, *found]:
+        if item.name in origins:
+            raise LibraryError(
+                f"{item.name} is there twice, as {origins[item.name]} and {item.source}: "
+                "each material needs a name of its own. Rename one, or leave one out."
+            )
+        origins[item.name] = item.source
+    return [*kept, *found], skipped
+
+
+def _is_library(source: str | Place) -> bool:
+    return not str(source).startswith("builtin:") and (to_place(source) / DESCRIPTION).exists()
+
+
+def _materials(library: StoredLibrary) -> list[Found]:
+    return [
+        Found(
+            entry.name,
+            entry.source,
+            library.grid,
+            Credit(*astuple(library.origin)),
+            partial(library.brdf, entry.name),
+            partial(str, entry.source_sha256),
+        )
+        for entry in library.entries
+    ]
+
+
+def _common_grid(found: Sequence[Found], wanted: Grid | None) -> Grid:
     grids = {item.grid: item.name for item in reversed(found) if item.grid is not None}
+    if wanted is not None:
+        grids = {wanted: "the library"} | grids
     if len(grids) > 1:
         listed = ", ".join(f"{name} has {grid}" for grid, name in grids.items())
         raise LibraryError(
