@@ -35,7 +35,7 @@ LIGHTS = {"points": "three lights", "studio": "studio"}
 EXPOSURE = -1.0
 SPP = 1024
 SCREENS = {
-    "explorer-dark": ((1440, 900), "dark", "#space=anchored&stops=gold-metallic-paint,blue-acrylic&t=0.42&shape=teapot"),
+    "explorer-dark": ((1440, 900), "dark", "#space=anchored&stops=gold-metallic-paint,blue-acrylic&t=0.2&shape=teapot"),
     "explorer-light": ((1440, 900), "light", "#space=paper&stops=cherry-235,tungsten-carbide&t=0.5&light=city&compare=linear"),
     "explorer-narrow-dark": ((800, 900), "dark", "#space=anchored&stops=pink-felt,chrome,teflon&t=0.3&light=sunset"),
     "explorer-narrow-light": ((800, 900), "light", "#space=anchored&stops=green-plastic,gold-paint&t=0.5&shape=teapot&light=forest"),
