@@ -3,9 +3,9 @@
     uv run --with atheris python tests/fuzz.py --minutes 60
     uv run --with atheris python tests/fuzz.py --minutes 5 rgl zip
 
-The time is split evenly; the kinds are those of `hostile.subjects`, and the renderer's meshes and environments. Each has a
-process of its own, with 1 GB of memory beyond what the imports take and 10 s for one input. What a fuzzer finds (anything but a
-`HalfwayError` of one line) is kept in ``fuzz/KIND/`` beside the inputs that led to new branches, and the exit code is 1.
+The time is split evenly; the kinds are those of `hostile.subjects`. Each has a process of its own, with 1 GB of memory beyond
+what the imports take and 10 s for one input. What a fuzzer finds (anything but a `HalfwayError` of one line) is kept in
+``fuzz/KIND/`` beside the inputs that led to new branches, and the exit code is 1.
 """
 
 import argparse

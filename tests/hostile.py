@@ -53,6 +53,7 @@ def subjects(folder: Path) -> dict[str, Subject]:
         "nbrdf": Subject(_nbrdf(), _read_brdf),
         "zip": Subject(_zip(folder), _find),
         "unpack": Subject(_zip(folder), _unpack),
+        "ply": Subject(_PLY, _read_ply),
         "library": Subject((path / "library.json").read_bytes(), _library_with("library.json", path)),
         "tables": Subject(tables.read_bytes(), _library_with(tables.name, path)),
         "recipe": Subject(json.dumps(recipe).encode(), _materials("recipe.json")),
@@ -72,6 +73,14 @@ def _table(value: float) -> TabularBrdf:
 def _read_brdf(content: bytes, folder: Path) -> None:
     (folder / "spoilt").write_bytes(content)
     _use(read_brdf(folder / "spoilt"))
+
+
+def _read_ply(content: bytes, folder: Path) -> None:
+    from halfway.render.ply import read_ply
+
+    (folder / "spoilt.ply").write_bytes(content)
+    mesh = read_ply(folder / "spoilt.ply")
+    assert mesh.positions[mesh.faces].shape == (len(mesh.faces), 3, 3)
 
 
 def _find(content: bytes, folder: Path) -> None:
@@ -139,6 +148,14 @@ def _use(brdf: Brdf) -> None:
 
 
 # Valid files
+
+_PLY = (
+    b"ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+    b"element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+    + np.array([0, 0, 0, 1, 0, 0, 0, 1, 0], "<f4").tobytes()
+    + b"\3"
+    + np.array([0, 1, 2], "<i4").tobytes()
+)
 
 
 def _nodes(*shape: int) -> np.ndarray:
