@@ -33,7 +33,7 @@ SCALES = np.array([1.0, 1.15, 1.66]) / 1500
 UNMEASURED = -1.0
 """The sample that we write where nothing was measured."""
 
-_BLOCK = 1 << 16  # samples encoded at once: half a megabyte stays in a cache
+_BLOCK = 1 << 16  # samples decoded or encoded at once: half a megabyte stays in a cache
 _CHUNK = 1 << 24  # bytes read at once: a zip's stream makes a copy of each
 
 
@@ -122,7 +122,30 @@ def read_merl(path: str | Path) -> TabularBrdf:
 
 def read_merl_source(source: Source) -> TabularBrdf:
     """The table in a MERL file or in a member of a zip; raises as `MerlFile.read` does."""
-    return MerlFile.read_source(source).to_table(source.name)
+    table = _decoded(source)
+    if table is None:  # read whole, to say what is wrong with it
+        return MerlFile.read_source(source).to_table(source.name)
+    return table
+
+
+def _decoded(source: Source) -> TabularBrdf | None:
+    """The table, decoded in blocks that stay in a cache; None where a sample is none or too large, or the file is short."""
+    grid = read_grid(source)
+    values = np.empty((3, grid.size), np.float32)
+    block = np.empty(_BLOCK, "<f8")
+    with source.open() as stream, np.errstate(over="ignore"):
+        stream.read(MERL_HEADER.size)
+        for channel, scale in zip(values, SCALES, strict=True):
+            for start in range(0, grid.size, _BLOCK):
+                decoded = channel[start : start + _BLOCK]
+                samples = block[: len(decoded)]
+                if stream.readinto(samples.data.cast("B")) < samples.nbytes:
+                    return None
+                np.multiply(samples, scale, out=decoded, casting="same_kind")
+                if not np.isfinite(decoded).all():
+                    return None
+                decoded[samples < 0] = np.nan
+    return TabularBrdf(values.reshape(3, *grid.shape), grid, name=source.name)
 
 
 def write_merl(path: str | Path, table: TabularBrdf) -> None:
