@@ -6,7 +6,7 @@ RUN := $(UV) run --frozen
 PYTEST := $(RUN) pytest -n 2
 
 .DEFAULT_GOAL := help
-.PHONY: help setup demo test lint viewer chromium bench pictures docs
+.PHONY: help setup demo test lint viewer chromium bench pictures docs release-check
 
 help:           ## this list
 	@grep -hE '^[a-z-]+: .*##|^[a-z-]+:  *##' $(MAKEFILE_LIST) | sed -E 's/:.*## */\t/' | expand -t 14
@@ -33,11 +33,14 @@ viewer: setup   ## the explorer's page: lint, types, tests, build
 chromium: setup # for the browser tests: the system's, or Playwright's own
 	@command -v chromium >/dev/null || $(RUN) playwright install chromium
 
-test: lint viewer chromium ## every check
+test: lint viewer chromium docs ## every check
 	$(PYTEST)
 
 docs: setup     ## the site, in docs/_build/html; every warning is an error
 	$(RUN) sphinx-build -E -W --keep-going -q -b html docs docs/_build/html
+
+release-check: setup ## the wheel in an environment of its own: every command of the tutorial
+	$(RUN) python tests/release.py
 
 bench: setup    ## speed, as ratios measured in one run; a table at the end, and in docs/benchmarks.md
 	$(RUN) pytest benchmarks -s -q -o python_files='bench_*.py' -o python_functions='bench_* test_*' -o addopts='--benchmark-columns=median,rounds'
