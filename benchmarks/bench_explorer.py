@@ -16,7 +16,7 @@ from collections.abc import Generator, Iterator
 from contextlib import contextmanager
 
 import pytest
-from playwright.sync_api import Browser, sync_playwright
+from playwright.sync_api import Browser, Request, sync_playwright
 
 FLAGS = ["--no-sandbox", "--disable-gpu", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
 VIEWPORT = {"width": 1190, "height": 700}
@@ -65,10 +65,12 @@ def measure(browser: Browser, light: str) -> dict[str, float]:
     """Seconds, and milliseconds a frame."""
     page = browser.new_page(viewport=VIEWPORT)  # pyright: ignore[reportArgumentType]
     arrived: list[float] = []
-    page.on(
-        "requestfinished",
-        lambda request: "/api/tables/" in request.url and arrived.append(time.perf_counter()),
-    )
+
+    def on_finished(request: Request) -> None:
+        if "/api/tables/" in request.url:
+            arrived.append(time.perf_counter())
+
+    page.on("requestfinished", on_finished)
     with viewing() as (address, start):
         page.goto(f"{address}#stops=cherry-235,gold-metallic-paint&t=0.5&light={light}")
         page.wait_for_selector("#app.ready .recipe .name")

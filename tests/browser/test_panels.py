@@ -5,6 +5,7 @@ import json
 import numpy as np
 import pytest
 from conftest import Explorer  # pyright: ignore[reportMissingImports]
+from playwright.sync_api import Request
 
 from halfway.brdf import directional_albedo
 from halfway.library import ProceduralLibrary
@@ -144,7 +145,7 @@ def test_crossing_into_the_next_simplex_never_blanks_the_picture(explorer: Explo
     explorer.wait_for_picture(4)
     explorer.page.route(
         "**/api/tables/*",
-        lambda route: (explorer.page.wait_for_timeout(150), route.continue_()),
+        lambda route: (explorer.page.wait_for_timeout(150), route.continue_())[1],
     )
     seen = explorer.page.evaluate(
         f"""async () => {{
@@ -168,9 +169,12 @@ def test_crossing_into_the_next_simplex_never_blanks_the_picture(explorer: Explo
 
 def test_few_tables_are_asked_for_at_a_time(explorer: Explorer) -> None:
     asked: list[str] = []
-    explorer.page.on(
-        "request", lambda request: "/api/tables/" in request.url and asked.append(request.url)
-    )
+
+    def on_request(request: Request) -> None:
+        if "/api/tables/" in request.url:
+            asked.append(request.url)
+
+    explorer.page.on("request", on_request)
     explorer.open(
         "#space=paper&pace=uniform&stops=cherry-235,chrome,teflon,pink-felt&t=0&light=points"
     )
