@@ -11,8 +11,11 @@ from .._types import Rows, Table
 from ..brdf.image_metrics import appearance, cielab_difference
 from ..errors import LibraryError
 from .basis import BasisImages
+from .blocks import ranges
 from .library import Library
 
+BLOCK_BYTES = 1.5e8
+"""How many bytes of float32 a block holds: eight materials on the MERL grid are one."""
 THINNING = 4
 """Every so many pixels of the basis images are enough to choose by."""
 
@@ -51,10 +54,12 @@ class Subset(Library):
         return self._library.row(self._indices[i])
 
     def columns(self, columns: slice) -> Rows:
-        return self._library.columns(columns)[:, self._indices]
+        # Of these materials alone: the library's own columns would be computed of all.
+        return np.stack([self.row(i)[:, columns] for i in range(len(self))], axis=1)
 
     def blocks(self) -> list[slice]:
-        return self._library.blocks()
+        # Few and wide, since every block takes whole rows.
+        return ranges(self.grid.size, max(1, int(BLOCK_BYTES / (12 * len(self)))))
 
 
 def most_different(images: BasisImages, n: int) -> list[str]:
