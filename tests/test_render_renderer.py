@@ -108,7 +108,7 @@ def test_a_mesh_stands_in_for_the_teapot(tmp_path):
         ({"spp": 0}, "spp is 0: expected 1 to 65536"),
         ({"bounces": 0}, "bounces is 0: expected 1 to"),
         ({"seed": -1}, "seed is -1: expected 0 to 4294967295"),
-        ({"mesh": "none.ply"}, "mesh none.ply does not exist"),
+        ({"mesh": "none.ply"}, "there is no mesh none.ply: see where you are"),
         ({"mesh": "dragon.stl"}, r"mesh dragon.stl is of an unknown kind: expected .ply or .obj"),
         ({"env": "sky.jpg"}, r"environment sky.jpg is of an unknown kind: expected .hdr or .exr"),
     ],

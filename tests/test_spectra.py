@@ -1,5 +1,7 @@
 """Colour of spectra: white is white, the primaries are in their places, Mitsuba's observer and illuminant agree."""
 
+import tracemalloc
+
 import numpy as np
 from numpy.testing import assert_allclose
 
@@ -8,6 +10,23 @@ from halfway.formats.spectra import WAVELENGTHS, rgb_weights, smooth_primaries
 
 def test_a_white_spectrum_is_white():
     assert_allclose(rgb_weights(np.linspace(360, 1000, 40)).sum(axis=1), 1, rtol=1e-12)
+
+
+def test_reflectances_are_linear_between_wavelengths_and_constant_beyond():
+    """Each weight is what a hat function of height 1 reflects."""
+    wavelengths = np.array([420.0, 500, 530, 700])
+    fine = np.arange(380.0, 781)
+    hats = np.stack([np.interp(fine, wavelengths, row) for row in np.eye(4)])
+    assert_allclose(rgb_weights(wavelengths), rgb_weights(fine) @ hats.T, atol=1e-12)
+
+
+def test_many_wavelengths_take_little_memory():
+    tracemalloc.start()
+    weights = rgb_weights(np.linspace(300, 900, 20_000))
+    _, most = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert weights.shape == (3, 20_000)
+    assert most < 10_000_000
 
 
 def test_spectral_colours_point_to_their_primaries():

@@ -29,7 +29,6 @@ from .rgl_warp import Interpolant, Warp, slices
 from .spectra import WAVELENGTHS, smooth_primaries
 from .tensor_file import write_tensor_file
 
-
 _GRAZING = np.pi / 2 - 1e-3
 _LEAST_COSINE = 1e-4
 _LUMINANCE = np.array([0.2126, 0.7152, 0.0722])

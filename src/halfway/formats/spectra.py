@@ -84,9 +84,14 @@ def rgb_weights(wavelengths: np.ndarray) -> np.ndarray:
     steps = np.arange(_CIE[0, 0], _CIE[-1, 0] + 1)
     illuminant = np.interp(steps, _CIE[:, 0], _CIE[:, 1])
     observer = CubicSpline(_CIE[:, 0], _CIE[:, 2:])(steps)
-    # Row j of the identity, interpolated, is the spectrum that is 1 at wavelength j and 0 at the others.
-    hats = np.stack([np.interp(steps, wavelengths, row) for row in np.eye(len(wavelengths))])
-    xyz = hats @ (illuminant[:, None] * observer)
+    # What lies between two wavelengths counts for both, by its distance. No matrix: a file may list any number.
+    n = len(wavelengths)
+    position = np.interp(steps, wavelengths, np.arange(n))
+    below = position.astype(np.intp)
+    share = (position - below)[:, None]
+    xyz = np.zeros((n, 3))
+    np.add.at(xyz, below, (1 - share) * illuminant[:, None] * observer)
+    np.add.at(xyz, np.minimum(below + 1, n - 1), share * illuminant[:, None] * observer)
     weights = _XYZ_TO_RGB @ xyz.T
     return weights / weights.sum(axis=1, keepdims=True)
 
