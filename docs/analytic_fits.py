@@ -20,34 +20,35 @@ def main(arguments: Sequence[str]) -> None:
     everything = "--all" in arguments
     for where in [a for a in arguments if a != "--all"] or ["builtin:merl-abc"]:
         library = open_library(where)
+        fits: dict[str, list[Fit]] = {model: [] for model in MODELS}
+        seconds: dict[str, list[float]] = {model: [] for model in MODELS}
+        for name in library.names:
+            brdf = library.brdf(name)
+            for model in MODELS:
+                start = time.process_time()
+                fits[model].append(fit(brdf, model, name=name))
+                seconds[model].append(time.process_time() - start)
         print(f"\n{library.name}: {len(library)} materials\n")
         print(
             "| model | dB: median | tenth lowest | lowest | albedo: median | highest | s | lowest four, dB |"
         )
         print("|---|---|---|---|---|---|---|---|")
-        fits = {model: measure(library, model) for model in MODELS}
+        for model in MODELS:
+            print_line(model, fits[model], seconds[model])
         if everything:
             print_all(fits)
 
 
-def measure(library: Library, model: str) -> list[Fit]:
-    """The fits of a library; prints a line of the table."""
-    fits, seconds = [], []
-    for name in library.names:
-        brdf = library.brdf(name)
-        start = time.process_time()
-        fits.append(fit(brdf, model, name=name))
-        seconds.append(time.process_time() - start)
-    fits.sort(key=lambda found: found.picture.psnr)
+def print_line(model: str, fits: Sequence[Fit], seconds: Sequence[float]) -> None:
+    """A line of the table of models."""
+    fits = sorted(fits, key=lambda found: found.picture.psnr)
     psnr = np.array([found.picture.psnr for found in fits])
     albedo = np.array([found.albedo_error for found in fits])
     worst = ", ".join(f"{found.name} {found.picture.psnr:.1f}" for found in fits[:N_WORST])
     print(
         f"| {model} | {np.median(psnr):.1f} | {psnr[min(9, len(psnr) - 1)]:.1f} | {psnr[0]:.1f} | "
-        f"{np.median(albedo):.3f} | {albedo.max():.3f} | {np.median(seconds):.2f} | {worst} |",
-        flush=True,
+        f"{np.median(albedo):.3f} | {albedo.max():.3f} | {np.median(seconds):.2f} | {worst} |"
     )
-    return fits
 
 
 def print_all(fits: dict[str, list[Fit]]) -> None:
