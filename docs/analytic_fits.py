@@ -9,7 +9,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from halfway import Library, open_library
+from halfway import open_library
 from halfway.fit import MODELS, Fit, fit
 
 N_WORST = 4

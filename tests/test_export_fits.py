@@ -151,7 +151,16 @@ def test_what_does_nothing_is_left_out():
     (material,) = json.loads(to_gltf(a_fit(PLAIN)))["materials"]
     assert "extensions" not in material
     (material,) = json.loads(to_gltf(a_fit(RICH)))["materials"]
-    assert material["extensions"]["KHR_materials_specular"]["specularColorFactor"] == [1, 0.5, 0.25]
+    assert material["pbrMetallicRoughness"] == {
+        "baseColorFactor": [0.8, 0.4, 0.2, 1.0],
+        "metallicFactor": 0.1,
+        "roughnessFactor": 0.5,
+    }
+    assert material["extensions"] == {
+        "KHR_materials_ior": {"ior": 1.7},
+        "KHR_materials_specular": {"specularFactor": 0.9, "specularColorFactor": [1, 0.5, 0.25]},
+        "KHR_materials_clearcoat": {"clearcoatFactor": 0.6, "clearcoatRoughnessFactor": 0.125},
+    }
 
 
 @pytest.mark.parametrize(
