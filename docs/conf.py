@@ -37,6 +37,7 @@ autodoc_member_order = "bysource"
 autodoc_typehints = "none"  # numpydoc says shapes and units, which types do not
 autodoc_preserve_defaults = True
 napoleon_google_docstring = False
+napoleon_use_param = False  # "shape" in a type is no link
 napoleon_use_rtype = False
 napoleon_use_ivar = True
 add_module_names = False

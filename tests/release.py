@@ -23,7 +23,7 @@ NOT_IN_WHEEL = ("tests/", "docs/", "viewer/", "examples/")
 BY_OTHER_MEANS = r"python3 -m venv|\. new-materials|pip install|halfway view"
 NOT_RUN = r"halfway fetch|merl\.brdflib|library build merl"
 """Downloads."""
-SMALLER = {"halfway render": "--size 32 --spp 2", "mitsuba": "-Dspp=2"}
+SMALLER = {"halfway render": "--size 32 --spp 2"}
 
 
 def main() -> None:

@@ -1,5 +1,6 @@
 """The command line as a person meets it: real processes for start-up, in-process runs for the rest."""
 
+import importlib.metadata
 import json
 import subprocess
 import sys
@@ -327,3 +328,8 @@ def test_two_routes_stand_below_each_other_and_side_by_side_when_they_move(run, 
         assert rows.width == 3 * 40 + 2 * 2
         assert rows.height > 2 * 40
         assert (moving.n_frames, moving.width) == (3, 2 * 40 + 2)
+
+
+def test_the_version_is_the_packages(run):
+    code, out, _ = run("--version")
+    assert (code, out.strip()) == (0, importlib.metadata.version("halfway"))

@@ -3,6 +3,8 @@
 Commands import what they use when they run, so that ``--help`` is immediate.
 """
 
+from typing import Annotated
+
 import typer
 
 from . import (
@@ -54,6 +56,27 @@ COMMANDS = (
 )
 for command in COMMANDS:
     app.command()(command)
+
+
+def _say_version(asked: bool) -> None:
+    if asked:
+        from .. import __version__
+
+        print(__version__)
+        raise typer.Exit
+
+
+@app.callback()
+def root(
+    version: Annotated[
+        bool,
+        typer.Option(
+            "--version", callback=_say_version, is_eager=True, help="Say which version this is."
+        ),
+    ] = False,
+) -> None:
+    """New materials from measured ones."""
+    del version  # its callback has said it
 
 
 def main() -> None:
