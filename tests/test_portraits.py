@@ -11,7 +11,7 @@ from PIL import Image
 
 from halfway.brdf import TabularBrdf
 from halfway.brdf.portrait import GAP, PORTRAIT_SCENE, STRIP_SCENE, portrait
-from halfway.halfdiff import MERL, Grid
+from halfway.halfdiff import Grid
 from halfway.library import ProceduralLibrary, library_called
 from halfway.space import LinearSpace, Recipe, Route
 from halfway.space.portraits import N_SPHERES
@@ -96,9 +96,3 @@ def test_showing_loads_neither_mitsuba_nor_a_server() -> None:
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "[]"
-
-
-@pytest.mark.benchmark(group="portrait")
-def test_showing_a_table_takes_no_time(benchmark) -> None:
-    white = matte((0.8, 0.8, 0.8), MERL)
-    benchmark(white._repr_png_)
