@@ -45,7 +45,7 @@ def samples(library):
 @pytest.fixture(scope="module")
 def make(library, images, samples):
     pca = Pca.fit(library)
-    return lambda **options: AnchoredSpace.fit(library, pca, images, samples, **options)
+    return lambda **options: AnchoredSpace.fit(library, pca, images, samples.body, **options)
 
 
 @pytest.fixture(scope="module")

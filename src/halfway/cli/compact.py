@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from .console import engine, say, track
+from .console import cache_folder, engine, say, track
 from .options import Scheduler
 
 
@@ -57,7 +57,13 @@ def compact(
     coding = Coding(mapping.value, shared, precision.value)
     with engine(scheduler) as where:
         made = compact_library(
-            library, output, n_components=components, coding=coding, track=track, engine=where
+            library,
+            output,
+            n_components=components,
+            coding=coding,
+            cache=cache_folder(),
+            track=track,
+            engine=where,
         )
     say("\n".join([f"{output}: {len(made)} materials on {made.grid}", *compact_lines(made)]))
     say(f"Next: halfway route {output} A B")

@@ -2,7 +2,7 @@
 
 from ..brdf.sphere import JUDGING_SCENE, PACING_SCENE, BasisScene, SphereOperator
 from .basis import BasisImages
-from .basis_samples import BasisSamples
+from .basis_samples import BasisSamples, body_colours
 from .building import build_library
 from .coding import Coding
 from .compact import CompactLibrary
@@ -34,6 +34,7 @@ __all__ = [
     "StoredLibrary",
     "Subset",
     "Verdict",
+    "body_colours",
     "build_library",
     "compact_library",
     "library_called",

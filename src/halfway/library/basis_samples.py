@@ -111,6 +111,24 @@ def body_mask(grid: Grid) -> Mask:
     return grid.mask() & beside & steep
 
 
+def body_colours(
+    library: Library,
+    *,
+    cache: Path | None = None,
+    track: Track = silent,
+    engine: Engine = THREADS,
+) -> Float64[np.ndarray, "N 3"]:
+    """The body colours of all materials of ``library``, 1/sr; kept in a ``cache`` folder under its checksum."""
+
+    def read() -> dict[str, np.ndarray]:
+        cells = np.flatnonzero(body_mask(library.grid))
+        tasks, label = range(len(library)), "Body colours"
+        rows = run(partial(_body, library, cells), tasks, label=label, track=track, engine=engine)
+        return {"body": np.stack(list(rows))}
+
+    return cached(cache, f"body-1-{library.checksum}", read)["body"]
+
+
 class _Drawn(NamedTuple):
     cells: Int[np.ndarray, " n_cells"]
     weights: Float64[np.ndarray, " n_cells"]
@@ -153,4 +171,14 @@ def _read_one(
     i: int,
 ) -> tuple[Float32[np.ndarray, "3 n_cells"], Float64[np.ndarray, " 3"]]:
     row = library.row(i)
-    return row[:, cells], np.asarray(np.nanmean(row[:, body], axis=1, dtype=np.float64))
+    return row[:, cells], _mean(row, body)
+
+
+def _body(library: Library, cells: Int[np.ndarray, " n_body"], i: int) -> Float64[np.ndarray, " 3"]:
+    return _mean(library.row(i), cells)
+
+
+def _mean(
+    row: Float32[np.ndarray, "3 p"], cells: Int[np.ndarray, " n_body"]
+) -> Float64[np.ndarray, " 3"]:
+    return np.asarray(np.nanmean(row[:, cells], axis=1, dtype=np.float64))

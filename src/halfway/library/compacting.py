@@ -36,10 +36,11 @@ def compact_library(
     *,
     n_components: int = N_COMPONENTS,
     coding: Coding = Coding(),  # noqa: B008 (frozen)
+    cache: Path | None = None,
     track: Track = silent,
     engine: Engine = THREADS,
 ) -> CompactLibrary:
-    """Write the compact library of ``library`` at ``path``, and measure it.
+    """Write the compact library of ``library`` at ``path``, and measure it; with a ``cache`` folder its components are kept.
 
     Raises
     ------
@@ -54,7 +55,7 @@ def compact_library(
             f"{library.name} cannot be kept in {n_components} components: it has {len(rows)} rows, and fewer are "
             f"expected, at least 1. Choose -k 1 to {len(rows) - 1}."
         )
-    pca = Pca.fit(rows, n_components=n_components, track=track, engine=engine)
+    pca = Pca.fit(rows, n_components=n_components, cache=cache, track=track, engine=engine)
     arrays = _arrays(rows, pca, track, engine)
     digest = hashlib.sha256(repr((library.names, library.grid, coding)).encode())
     for array in arrays:
@@ -87,8 +88,10 @@ class CodedRows(Library):
         per_material = 3 // coding.n_bases
         self.names = tuple(f"{name} {i}" for i in range(per_material) for name in library.names)
         self.n_channels = coding.n_bases
-        self.checksum = hashlib.sha256(repr((library.checksum, coding)).encode()).hexdigest()
-        self.material_checksums = self.names
+        what = library.checksum, coding.mapping, coding.shared
+        self.checksum = hashlib.sha256(repr(what).encode()).hexdigest()
+        # Which cells count depends on all materials: nothing of them is kept for another library.
+        self.material_checksums = tuple(f"{self.checksum} {name}" for name in self.names)
 
     def row(self, i: int) -> Table:
         raise NotImplementedError(f"rows are read in blocks, not {i} alone")

@@ -26,6 +26,7 @@ from pathlib import Path
 
 import numpy as np
 from jaxtyping import Float64
+from threadpoolctl import threadpool_limits
 
 from .._types import Table
 from ..brdf import TabularBrdf
@@ -84,33 +85,21 @@ class Pca:
         if n < 2:
             raise LibraryError(f"{library.name} has {n} material: a PCA takes at least 2.")
         k = min(n_components or N_KEPT, n)
-        if n <= MOST_EXACT:
-            return cls.of(library.names, kept_gram(library, cache, track=track, engine=engine), k)
-        key = f"sketch-1-{k}-{N_PASSES}-{library.checksum}"
-        found = cached(cache, key, lambda: sketch(library, k, track=track, engine=engine)._asdict())
-        vectors = _signed(found["eigenvectors"])
-        return cls._finished(library.names, found["eigenvalues"], vectors, **_norms(found))
+
+        def compute() -> dict[str, np.ndarray]:
+            # More than one thread of BLAS waits for itself on a busy machine: ten times the time, and more.
+            with threadpool_limits(1, "blas"):
+                if n > MOST_EXACT:
+                    return sketch(library, k, track=track, engine=engine)._asdict()
+                gram = kept_gram(library, cache, track=track, engine=engine)
+                return _components(gram, k)
+
+        method = "exact" if n <= MOST_EXACT else f"sketch-{N_PASSES}"
+        found = cached(cache, f"components-1-{method}-{k}-{library.checksum}", compute)
+        return cls._of(library.names, **found)
 
     @classmethod
-    def of(cls, names: tuple[str, ...], gram: Gram, n_components: int | None = None) -> "Pca":
-        """The leading components of Gram matrices; all of them by default."""
-        k = n_components or len(names)
-        pairs: list[tuple[np.ndarray, np.ndarray]] = []
-        centred_norms = np.empty_like(gram.squared_norms)
-        for channel in range(len(centred_norms)):
-            centred = gram.centred(channel)
-            centred_norms[channel] = centred.diagonal()
-            pairs.append(_eigen(centred, k))
-        values, vectors = (np.stack(part) for part in zip(*pairs, strict=True))
-        norms = {
-            "squared_norms": gram.squared_norms,
-            "centred_norms": centred_norms,
-            "n_cells": gram.n_cells,
-        }
-        return cls._finished(names, values, vectors, **norms)
-
-    @classmethod
-    def _finished(
+    def _of(
         cls,
         names: tuple[str, ...],
         eigenvalues: Float64[np.ndarray, "n_channels K"],
@@ -119,6 +108,7 @@ class Pca:
         centred_norms: Float64[np.ndarray, "n_channels N"],
         n_cells: np.ndarray,
     ) -> "Pca":
+        eigenvectors = _signed(eigenvectors)
         kept = np.einsum("cij,cj->ci", eigenvectors**2, eigenvalues)
         is_all = eigenvalues.shape[1] == len(names)
         rest = np.zeros_like(kept) if is_all else np.maximum(centred_norms - kept, 0)
@@ -133,11 +123,15 @@ class Pca:
     def joint_scores(self, n_components: int) -> Float64[np.ndarray, "N k"]:
         """Coordinates on the first components of all channels together, 1/sr: one analysis of the tables as a whole."""
         scores = np.concatenate(list(self.scores(self.eigenvalues.shape[1])), axis=1)
-        if scores.shape[1] < len(scores):
-            vectors, roots, _ = np.linalg.svd(scores, full_matrices=False)
-            return _signed(vectors[:, :n_components]) * roots[:n_components]
-        eigenvalues, vectors = _eigen(scores @ scores.T, min(n_components, len(scores)))
-        return vectors * np.sqrt(eigenvalues)
+        with threadpool_limits(1, "blas"):
+            if scores.shape[1] < len(scores):
+                # The smaller of the two products; a score on a component is what the scores have along it.
+                _, directions = _eigen(scores.T @ scores, n_components)
+                joint = scores @ directions
+            else:
+                eigenvalues, vectors = _eigen(scores @ scores.T, min(n_components, len(scores)))
+                joint = vectors * np.sqrt(eigenvalues)
+        return _signed(joint)
 
     def squared_residuals(self, n_components: int) -> Float64[np.ndarray, "n_channels N"]:
         """|u_i - u_i,k|^2 of the k-component reconstructions, k at most K."""
@@ -160,14 +154,29 @@ class Pca:
         return TabularBrdf(values.reshape(3, *library.grid.shape), library.grid, name=label)
 
 
-def _norms(arrays: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
-    return {name: arrays[name] for name in ("squared_norms", "centred_norms", "n_cells")}
+def _components(gram: Gram, k: int) -> dict[str, np.ndarray]:
+    """The leading k eigenpairs of Gram matrices, and the norms."""
+    channels = range(len(gram.products))
+    centred_norms = np.empty_like(gram.squared_norms)
+    eigenvalues = np.empty((len(channels), k))
+    eigenvectors = np.empty((len(channels), len(gram.materials), k))
+    for channel in channels:
+        centred = gram.centred(channel)
+        centred_norms[channel] = centred.diagonal()
+        eigenvalues[channel], eigenvectors[channel] = _eigen(centred, k)
+    return {
+        "eigenvalues": eigenvalues,
+        "eigenvectors": eigenvectors,
+        "squared_norms": gram.squared_norms,
+        "centred_norms": centred_norms,
+        "n_cells": gram.n_cells,
+    }
 
 
 def _eigen(
     gram: Float64[np.ndarray, "N N"], k: int
 ) -> tuple[Float64[np.ndarray, " k"], Float64[np.ndarray, "N k"]]:
-    """The k largest eigenvalues, descending and non-negative, and eigenvectors whose largest entry is positive."""
+    """The k largest eigenvalues, descending and non-negative, and their eigenvectors."""
     n = len(gram)
     if k == n:
         eigenvalues, vectors = np.linalg.eigh(gram)
@@ -175,7 +184,7 @@ def _eigen(
         from scipy.linalg import eigh  # a second to load
 
         eigenvalues, vectors = eigh(gram, subset_by_index=(n - k, n - 1), check_finite=False)
-    return np.maximum(eigenvalues[::-1], 0.0), _signed(vectors[:, ::-1])
+    return np.maximum(eigenvalues[::-1], 0.0), vectors[:, ::-1]
 
 
 def _signed(vectors: Float64[np.ndarray, "*c N k"]) -> Float64[np.ndarray, "*c N k"]:

@@ -58,6 +58,8 @@ class PcaPlan:
         block_bytes = 12 * n * n_columns
         task = block_bytes + 2 * 8 * n * min(n_columns, columns_per_piece(n)) + result
         task += 8 * n**2 if n_vectors is None else 0
+        # Beside the sum, a sketch holds its test vectors and their orthonormal copy.
+        held = result if n_vectors is None else 3 * result
         n_passes = 1 if n_vectors is None else N_PASSES
         return cls(
             n_vectors,
@@ -67,7 +69,7 @@ class PcaPlan:
             len(blocks),
             n_columns,
             block_bytes,
-            int(result + min(n_threads, len(blocks)) * task + N_WAITING * result),
+            int(held + min(n_threads, len(blocks)) * task + N_WAITING * result),
             12 * n * library.grid.size * n_passes,
         )
 

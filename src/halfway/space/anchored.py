@@ -31,7 +31,7 @@ from jaxtyping import Float64
 from .._types import Points
 from ..brdf.image_metrics import appearance, cielab_difference
 from ..errors import OutsideHullError, SpaceError
-from ..library import BasisImages, BasisSamples, Library, Pca
+from ..library import BasisImages, Library, Pca
 from .hull import nearest_in_hull
 from .recipe import Recipe
 from .spaces import Leg, Space, interpolate
@@ -73,12 +73,12 @@ class AnchoredSpace(Space):
         library: Library,
         pca: Pca,
         images: BasisImages,
-        samples: BasisSamples,
+        body: Float64[np.ndarray, "N 3"],
         *,
         n_components: int = 3,
         detour: float = DETOUR,
     ) -> "AnchoredSpace":
-        """The space of ``n_components`` joint scores and the body colours.
+        """The space of ``n_components`` joint scores and the body colours ``body`` of the materials, in 1/sr.
 
         Raises
         ------
@@ -94,7 +94,7 @@ class AnchoredSpace(Space):
                 f"a detour of {detour:g} is shorter than the direct way: expected 1 or more."
             )
         scores = pca.joint_scores(n_components)
-        points = np.concatenate([scores, samples.body], axis=1)
+        points = np.concatenate([scores, body], axis=1)
         scale = anchored_scale(points, scores.shape[1])
         return cls(
             library.name,

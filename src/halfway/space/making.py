@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from ..errors import SpaceError
-from ..library import BasisImages, BasisSamples, Library, Pca
+from ..library import BasisImages, Library, Pca, body_colours
 from ..tasks import THREADS, Engine, Track, silent
 from .anchored import DETOUR, AnchoredSpace
 from .spaces import LinearSpace, PaperSpace, Space
@@ -25,7 +25,7 @@ def anchored_space(
         library,
         Pca.fit(library, cache=cache, track=track, engine=engine),
         BasisImages.fit(library, cache=cache, track=track, engine=engine),
-        BasisSamples.fit(library, cache=cache, track=track, engine=engine),
+        body_colours(library, cache=cache, track=track, engine=engine),
         n_components=n_components,
         detour=detour,
     )
