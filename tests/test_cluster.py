@@ -7,8 +7,6 @@ import os
 import signal
 import time
 from collections.abc import Sequence
-from functools import partial
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -20,13 +18,12 @@ from halfway.errors import ClusterError, FormatError, LibraryError, MissingExtra
 from halfway.export import compare_spaces, write_route
 from halfway.formats import write_merl
 from halfway.halfdiff import Grid
-from halfway.library import BasisImages, BasisSamples, Pca
+from halfway.library import BasisImages, BasisSamples, Pca, StoredLibrary
 from halfway.space import LinearSpace, Mixer
 from halfway.tasks import THREADS, Threads, run
 
 GRID = Grid.merl(12, 10, 8)
 """Large enough for several blocks with a patched block size, small enough for milliseconds."""
-
 
 
 @pytest.fixture(scope="module")
@@ -66,22 +63,8 @@ def square(x: int) -> int:
     return x * x
 
 
-def wait(seconds: float, x: int) -> int:
-    time.sleep(seconds)
-    return x
-
-
 def refuse(x: int) -> int:
     raise FormatError(f"{x}.binary is damaged: expected a table. Compare it with the original.")
-
-
-def die_once(mark: Path, x: int) -> int:
-    """Kill this worker the first time that task 3 comes."""
-    if x == 3 and not mark.exists():
-        mark.touch()
-        os.kill(os.getpid(), signal.SIGKILL)
-    time.sleep(0.01)
-    return x
 
 
 def die(x: int) -> int:
@@ -130,10 +113,37 @@ def test_spaces_measure_the_same(cluster, library):
     assert here == there
 
 
-def test_a_worker_killed_in_the_middle_costs_only_time(cluster, tmp_path):
-    found = list(run(partial(die_once, tmp_path / "mark"), range(40), engine=cluster))
-    assert found == list(range(40))
-    assert (tmp_path / "mark").exists()
+@pytest.fixture
+def kill_one(cluster):
+    """A track that kills a worker (SIGKILL) when the third result is there."""
+
+    def track(items, label, total):  # noqa: ARG001
+        for i, item in enumerate(items):
+            if i == 2:
+                os.kill(min(cluster.client.run(os.getpid).values()), signal.SIGKILL)
+            yield item
+
+    return track
+
+
+def test_components_are_the_same_bytes_when_a_worker_is_killed(
+    cluster, library, kill_one, monkeypatch
+):
+    blocks = [slice(start, start + 40) for start in range(0, GRID.size, 40)]
+    monkeypatch.setattr(StoredLibrary, "blocks", lambda _: blocks)
+    here, there = Pca.fit(library), Pca.fit(library, engine=cluster, track=kill_one)
+    np.testing.assert_array_equal(here.eigenvectors, there.eigenvectors)
+    np.testing.assert_array_equal(here.eigenvalues, there.eigenvalues)
+
+
+def test_tables_are_the_same_bytes_when_a_worker_is_killed(cluster, library, kill_one, tmp_path):
+    route = Route.through(LinearSpace(library.name, library.names), library.names[:3])
+    ts = np.linspace(0, 1, 24).tolist()
+    write_route(tmp_path / "here", route, ts, library, format="merl")
+    write_route(
+        tmp_path / "there", route, ts, library, format="merl", engine=cluster, track=kill_one
+    )
+    assert files(tmp_path / "there") == files(tmp_path / "here")
 
 
 def test_a_mistake_is_the_same_mistake(cluster):
