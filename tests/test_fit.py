@@ -12,9 +12,10 @@ from strategies import directions
 
 from halfway.brdf import IsotropicModel, TabularBrdf, directional_albedo, tabulate
 from halfway.errors import FormatError, HalfwayError
-from halfway.fit import MODELS, Gltf, OpenPbr, Principled, fit
+from halfway.fit import MODELS, Fit, Gltf, OpenPbr, Principled, fit
 from halfway.fit.metric import comparison_pairs
 from halfway.fit.openpbr import eon
+from halfway.formats.rgl_quality import Quality
 from halfway.halfdiff import Grid
 from halfway.models import builtin
 
@@ -191,3 +192,17 @@ def test_a_fit_is_json():
     assert (document["format"], document["material"], document["model"]) == (1, "teflon", "gltf")
     assert document["parameters"]["base_color"] == found.model.base_color.tolist()
     assert replace(found, name="other").to_json()["material"] == "other"
+
+
+def test_mitsubas_plugin_looks_as_the_table_of_its_model():
+    """The picture of a fit that is the material: nothing in either difference but noise and the grid."""
+    from halfway.render.fits import fit_sheet
+
+    size = 48
+    exact = Fit("exact", KNOWN["lacquer"], 0.0, Quality(120.0, 0.0), 0.0)
+    sheet = fit_sheet(tabulate(exact.model, GRID, name="exact"), exact, size=size)
+    n_rows = sheet.shape[0] // 2
+    above, below = (sheet[start : start + size, -size:].mean() for start in (0, n_rows + 1))
+    assert above == 0
+    # Of 255, which are ten CIEDE2000.
+    assert below < 25
