@@ -9,6 +9,7 @@ import os
 import random
 import shutil
 import signal
+import socket
 import subprocess
 import sys
 import tempfile
@@ -20,8 +21,10 @@ from pathlib import Path
 
 import pytest
 
-from halfway.errors import LibraryError
+from halfway.cluster import Cluster
+from halfway.errors import ClusterError, LibraryError
 from halfway.library import StoredLibrary, build_library, verify_library
+from halfway.tasks import run
 
 TESTS = Path(__file__).parent
 BUILD_FOR_EVER = """
@@ -67,6 +70,43 @@ def forget_what_is_young(folder: Path) -> None:
     """Make what killed builders left look old enough to be removed."""
     for left in folder.glob(".*.new"):
         os.utime(left, (0, 0))
+
+
+def kill_scheduler() -> str:
+    """What is said when the scheduler of a cluster gets SIGKILL in the middle of some work."""
+    with socket.create_server(("127.0.0.1", 0)) as listener:
+        port = listener.getsockname()[1]
+    address = f"tcp://127.0.0.1:{port}"
+    commands = (
+        ["scheduler", "--port", str(port), "--no-dashboard"],
+        ["worker", address, "--no-dashboard", "--no-nanny"],
+    )
+    processes = [
+        subprocess.Popen([sys.executable, "-m", "dask", *words], stderr=subprocess.DEVNULL)
+        for words in commands
+    ]
+    try:
+        _wait_for(port)
+        with Cluster.at(address) as cluster:
+            results = run(time.sleep, [0.05] * 100, engine=cluster)
+            next(results)
+            processes[0].kill()
+            list(results)
+    except ClusterError as error:
+        return str(error)
+    finally:
+        for process in processes:
+            process.kill()
+            process.wait()
+    return "nothing"
+
+
+def _wait_for(port: int) -> None:
+    while True:
+        with suppress(ConnectionRefusedError):
+            socket.create_connection(("127.0.0.1", port)).close()
+            return
+        time.sleep(0.05)
 
 
 def what_is_at(target: Path) -> str:

@@ -10,6 +10,7 @@ from collections.abc import Sequence
 
 import numpy as np
 import pytest
+from faults import kill_scheduler
 from strategies import random_tables
 
 from halfway import Recipe, Route, build_library
@@ -255,3 +256,8 @@ def test_without_the_package_one_line_says_what_to_install(monkeypatch):
 def test_a_task_that_kills_every_worker_is_given_up(cluster):
     with pytest.raises(ClusterError, match="lost 2 workers on one task: expected none to die"):
         list(run(die, range(1), engine=cluster))
+
+
+def test_a_scheduler_killed_in_the_middle_is_one_line(monkeypatch):
+    monkeypatch.setattr("halfway.cluster.CONNECTION_SECONDS", 30.0)  # the worker has to start
+    assert "is gone: the scheduler was there when the work began" in kill_scheduler()

@@ -164,6 +164,7 @@ def test_the_command_line_takes_urls(bucket, folder, monkeypatch, capsys):  # no
     assert (facts["library"], len(facts["materials"])) == ("s3://bucket/cli.brdflib", 5)
     words = ("material-0", "material-1", "-n", "3", "--space", "linear", "--pace", "uniform")
     run("route", "s3://bucket/cli.brdflib", *words, "-o", "s3://bucket/cli-route")
+    assert json.loads(run("verify", "s3://bucket/cli-route", "--json"))["ok"]
     document = json.loads((RemotePath("s3://bucket/cli-route") / "recipes.json").read_text())
     assert len(document["recipes"]) == 3
     run("mix", "s3://bucket/cli.brdflib", "material-0=0.5, material-1=0.5", "-o", "a.binary")

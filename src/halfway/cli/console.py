@@ -75,10 +75,12 @@ def engine(scheduler: str) -> "Generator[Engine]":
 
     from ..cluster import Cluster
 
-    # What goes wrong is told in one line, once.
-    logging.getLogger("distributed").setLevel(logging.CRITICAL)
-    with Cluster.at(scheduler) as cluster:
-        yield cluster
+    logging.disable(logging.CRITICAL)  # what goes wrong is told in one line, once
+    try:
+        with Cluster.at(scheduler) as cluster:
+            yield cluster
+    finally:
+        logging.disable(logging.NOTSET)
 
 
 def run(app: Callable[[], None]) -> None:

@@ -1,7 +1,6 @@
 """``halfway verify``: whether a folder still holds what was written there."""
 
 import json
-from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -14,7 +13,9 @@ N_SHOWN = 20
 
 
 def verify(
-    folder: Annotated[Path, typer.Argument(metavar="DIR", help="As route or render wrote it.")],
+    folder: Annotated[
+        str, typer.Argument(metavar="DIR", help="As route or render wrote it, or its URL.")
+    ],
     as_json: AsJson = False,
 ) -> None:
     """Read every file of a folder again and compare it with manifest.json: missing, changed, foreign.
@@ -26,11 +27,12 @@ def verify(
     halfway verify frames --json
     """
     from halfway.batch import verify as verified
+    from halfway.places import to_place
 
-    found = verified(folder, track=track)
+    found = verified(to_place(folder), track=track)
     kinds = {"missing": found.missing, "changed": found.changed, "foreign": found.foreign}
     if as_json:
-        document = {"format": 1, "folder": str(folder), "ok": found.ok, "right": found.n_right}
+        document = {"format": 1, "folder": folder, "ok": found.ok, "right": found.n_right}
         print(json.dumps(document | kinds, indent=1))
     else:
         for kind, names in kinds.items():
