@@ -26,7 +26,6 @@ extensions = [
     "public_name",
 ]
 exclude_patterns = ["_build", "_ext", "gallery/*.ipynb", "gallery/*.py.md5"]
-suppress_warnings = ["toc.not_included"]  # pages come before their place in index.md
 
 myst_enable_extensions = ["colon_fence", "deflist"]
 smartquotes = False  # --option is two hyphens
