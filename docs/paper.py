@@ -18,6 +18,8 @@ def main(where: str) -> None:
     reproduce(PICTURES, open_library(where), size=WIDTH, cache=cache_folder(), track=track)
     text = (PICTURES / "page.md").read_text()
     (DOCS / "paper.md").write_text(re.sub(r"\]\((\S+\.webp)\)", r"](images/paper/\1)", text))
+    numbers = PICTURES / "paper.json"
+    numbers.write_text(numbers.read_text().replace(where, Path(where).name))
     for name in ("page.md", "page.html"):
         (PICTURES / name).unlink()
 
