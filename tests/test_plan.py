@@ -75,7 +75,7 @@ def test_columns_of_a_block_within_a_row_are_those_of_the_rows():
 def test_the_plan_says_what_it_takes():
     lines = PcaPlan.of(library(20, 6), n_threads=2).timed(library(20, 6)).lines()
     assert lines[0] == "20 materials x 2,304 cells: exact, one pass"
-    assert lines[1] == "1 blocks of 2,304 columns, 0.6 MB each; 0.000553 GB of samples in all"
+    assert lines[1] == "1 block of 2,304 columns, 0.6 MB each; 0.000553 GB of samples in all"
     assert lines[2].startswith("memory at most 0.00 GB")
     assert lines[3].endswith("judged by one block")
 

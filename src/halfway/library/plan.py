@@ -95,7 +95,7 @@ class PcaPlan:
         method = (
             "exact, one pass" if exact else f"{self.n_vectors} test vectors, {self.n_passes} passes"
         )
-        blocks = f"{self.n_blocks:,} blocks of {self.n_columns:,} columns, {self.block_bytes / 1e6:.1f} MB each"
+        blocks = f"{self.n_blocks:,} block{'s' * (self.n_blocks > 1)} of {self.n_columns:,} columns, {self.block_bytes / 1e6:.1f} MB each"
         shown = [
             f"{self.n_materials:,} materials x {self.n_cells:,} cells: {method}",
             f"{blocks}; {self.read_bytes / gb:.3g} GB of samples in all",

@@ -1,0 +1,93 @@
+"""Large and compact libraries on the command line."""
+
+import json
+import sys
+
+import pytest
+
+from halfway.cli import arguments
+from halfway.cli import main as halfway
+from halfway.errors import HalfwayError
+from halfway.halfdiff import Grid
+
+
+@pytest.fixture
+def run(capsys, monkeypatch, tmp_path):
+    """Run a command in an empty folder; gives (exit code, stdout, stderr)."""
+    monkeypatch.chdir(tmp_path)
+    for module in ("route", "report", "compact"):
+        monkeypatch.setattr(f"halfway.cli.{module}.cache_folder", lambda: tmp_path / "cache")
+
+    def run(*words):
+        monkeypatch.setattr(sys, "argv", ["halfway", *words])
+        code = 0
+        try:
+            halfway()
+        except SystemExit as stop:
+            code = stop.code or 0
+        return code, *capsys.readouterr()
+
+    return run
+
+
+def test_a_library_is_built_on_a_grid_added_to_and_kept_compact(run, tmp_path):
+    code, _, err = run(
+        "library", "build", "builtin:synthetic-8", "--grid", "6x5x4", "-o", "a.brdflib"
+    )
+    assert (code, err.split(".")[0]) == (0, "a")
+    assert "8 materials on 6 x 5 x 4" in err
+    code, _, err = run("library", "build", "a.brdflib", "builtin:merl-abc", "-o", "a.brdflib")
+    assert "108 materials on 6 x 5 x 4" in err
+    code, _, err = run("library", "compact", "a.brdflib", "-k", "9", "-o", "a.brdfc")
+    assert code == 0
+    assert "compact: 9 log components shared by the channels, int8" in err
+    assert "times less than tables of 0.2 MB" in err
+    code, out, _ = run("library", "info", "a.brdfc", "--json")
+    facts = json.loads(out)
+    assert facts["compact"]["n_components"] == 9
+    assert facts["compact"]["n_bytes"] == (tmp_path / "a.brdfc").stat().st_size
+    assert 0 < facts["compact"]["error"]["mean_relative_error"] < 1
+    code, out, _ = run("library", "info", "a.brdfc")
+    assert "reconstructed from 9 principal components" in out
+    code, out, _ = run("route", "a.brdfc", "chrome", "metal-0002", "-n", "3", "--json")
+    assert len(json.loads(out)["recipes"]) == 3
+
+
+def test_a_dry_run_says_what_it_takes_and_writes_nothing(run, tmp_path):
+    run("library", "build", "builtin:synthetic-5", "--grid", "4x3x2", "-o", "a.brdflib")
+    code, out, err = run("report", "a.brdflib", "--dry-run")
+    assert (code, err) == (0, "")
+    assert out.startswith("5 materials x 24 cells: exact, one pass\n1 block of 24 columns")
+    assert [path.name for path in tmp_path.iterdir()] == ["a.brdflib"]
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (
+            ("library", "compact", "nowhere", "-o", "a.brdfc"),
+            "there is no library 'nowhere': expected a .brdflib folder, a .brdfc file",
+        ),
+        (
+            ("library", "compact", "builtin:synthetic-2", "-k", "6", "-o", "a.brdfc"),
+            "cannot be kept in 6 components: it has 6 rows, and fewer are expected",
+        ),
+        (
+            ("library", "build", "builtin:synthetic-2", "--grid", "4x0x2", "-o", "a.brdflib"),
+            "--grid '4x0x2' is no grid: expected cells in theta_h, theta_d and phi_d, such as 30x30x60.",
+        ),
+    ],
+)
+def test_a_mistake_is_one_line(run, tmp_path, words, message):
+    code, out, err = run(*words)
+    assert (code, out) == (1, "")
+    assert message in err
+    assert err.count("\n") == 1
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_grid_is_written_by_its_sizes():
+    assert arguments.parse_grid("30x20X60") == Grid.merl(30, 20, 60)
+    for text in ("30", "30x20", "axbxc", "1x1x1001", "-1x2x3"):
+        with pytest.raises(HalfwayError, match="is no grid"):
+            arguments.parse_grid(text)
