@@ -30,18 +30,24 @@ def route(
     halfway route teflon gold-paint chrome -n 101
     halfway route cherry-235 tungsten-carbide --space paper --pace uniform --t 0.0001:1:0.0001
     """
+    import numpy as np
+
     from halfway.export import write_route
     from halfway.library import BasisImages, open_library
     from halfway.places import to_place
-    from halfway.space import Route, make_space, perceptual
+    from halfway.space import LinearSpace, Route, make_space, perceptual
 
     from .arguments import parse_t, split_library
 
-    where, stops = split_library(words)
-    library = open_library(where)
+    address, stops = split_library(words)
+    library = open_library(address)
+    # A mistake is told before a space is fitted.
     for stop in stops:
         library.index(stop)
-    with engine(scheduler) as where:
+    straight = Route.through(LinearSpace(library.name, library.names), stops)
+    wanted = parse_t(t) if t else None
+    straight.at(np.array(wanted or straight.steps(n)))
+    with engine(scheduler) as place:
         made = make_space(
             space,
             library,
@@ -49,20 +55,19 @@ def route(
             detour=detour,
             cache=cache_folder(),
             track=track,
-            engine=where,
+            engine=place,
         )
         found = Route.through(made, stops)
         if pace is Pace.perceptual:
-            found = perceptual(
-                found, BasisImages.fit(library, cache=cache_folder(), track=track, engine=where)
-            )
-        ts = parse_t(t) if t else found.steps(n)
+            images = BasisImages.fit(library, cache=cache_folder(), track=track, engine=place)
+            found = perceptual(found, images)
+        ts = wanted or found.steps(n)
         if as_json:
             print(json.dumps(found.to_json(ts)))
         if output is None and as_json:
             return
         folder = to_place(output or "-to-".join(stops))
-        written = write_route(folder, found, ts, library, format=format, track=track, engine=where)
+        written = write_route(folder, found, ts, library, format=format, track=track, engine=place)
     tables = f", {written.n_written} tables written" if format != "none" else ""
     kept = f", {written.n_kept} kept" if written.n_kept else ""
     say(f"{folder}: {len(ts)} recipes{tables}{kept}. Next: halfway render {folder} -o route.png")
