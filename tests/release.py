@@ -17,6 +17,7 @@ import zipfile
 from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
+UV = os.environ.get("UV", "uv")  # `uv run` says where it is
 TUTORIAL = ROOT / "docs" / "tutorial.md"
 IN_WHEEL = ("halfway/py.typed", "halfway/server/page/index.html")
 NOT_IN_WHEEL = ("tests/", "docs/", "viewer/", "examples/")
@@ -45,7 +46,7 @@ def build(work: Path) -> Path:
     """The wheel, made from the source distribution of what is committed."""
     source = work / "source"
     call("git", "clone", "--quiet", "--depth=1", f"file://{ROOT}", str(source))
-    call("uv", "build", "--quiet", "--out-dir", str(work / "dist"), cwd=source)
+    call(UV, "build", "--quiet", "--out-dir", str(work / "dist"), cwd=source)
     (wheel,) = (work / "dist").glob("*.whl")
     return wheel
 
@@ -62,8 +63,8 @@ def check_contents(wheel: Path) -> None:
 def install(work: Path, wheel: Path) -> Path:
     """An environment with the wheel and what it asks for, and nothing else."""
     env = work / "env"
-    call("uv", "venv", "--quiet", "--python", sys.executable, str(env))
-    call("uv", "pip", "install", "--quiet", "--python", str(env / "bin" / "python"), str(wheel))
+    call(UV, "venv", "--quiet", "--python", sys.executable, str(env))
+    call(UV, "pip", "install", "--quiet", "--python", str(env / "bin" / "python"), str(wheel))
     return env
 
 
