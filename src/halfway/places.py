@@ -75,10 +75,6 @@ class RemotePath:
         with self._asking() as (fs, path):
             return bool(fs.isfile(path))
 
-    def is_dir(self) -> bool:
-        with self._asking() as (fs, path):
-            return bool(fs.isdir(path))
-
     def stat(self) -> RemoteStat:
         with self._asking() as (fs, path):
             return RemoteStat(int(fs.info(path)["size"]))
