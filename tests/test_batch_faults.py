@@ -21,6 +21,8 @@ from halfway.formats import write_merl
 
 GRID = Grid.merl(24, 20, 40)
 N_KILLS = 10
+EXIT_130 = (130, -signal.SIGINT)
+"""As a shell counts; Python ends itself by the signal where a compiled module saw it first."""
 INTERRUPTED = (
     "halfway: interrupted; what was finished is kept, and the same command goes on from there.\n"
 )
@@ -120,10 +122,8 @@ def test_ctrl_c_is_one_line_and_leaves_no_temporary(library, reference, tmp_path
     found = contents(tmp_path / "out")
     assert {name: reference[name] for name in found} == found
     assert not list((tmp_path / "out").glob(".*"))
-    assert (process.returncode, talk) == (
-        130,
-        INTERRUPTED,
-    )
+    assert process.returncode in EXIT_130
+    assert talk == INTERRUPTED
 
 
 def test_ctrl_c_while_it_starts_is_one_line():
@@ -133,7 +133,8 @@ def test_ctrl_c_while_it_starts_is_one_line():
         next(line for line in process.stderr if "typer" in line)
         process.send_signal(signal.SIGINT)
         said = [line for line in process.stderr if not line.startswith("import time:")]
-    assert (process.returncode, said) == (130, [INTERRUPTED])
+    assert process.returncode in EXIT_130
+    assert said == [INTERRUPTED]
 
 
 @pytest.fixture
