@@ -127,7 +127,7 @@ def interrupt_commands(
     At any moment of its run; with ``after``, soon after a file of that pattern appeared.
     """
     rng, found = random.Random(seed), Counter[str]()
-    whole = 0.0 if after else _seconds(folder, words)
+    whole = 0.0 if after else min(_seconds(folder, words) for _ in range(3))
     for _ in range(n):
         process = subprocess.Popen(
             [sys.executable, "-m", "halfway", *words],
@@ -139,7 +139,7 @@ def interrupt_commands(
         while after and not any(folder.glob(after)) and process.poll() is None:
             time.sleep(0.001)
         # The interpreter itself has to be up: what it does on a signal before is not ours.
-        time.sleep(rng.uniform(0.0, 0.03) if after else rng.uniform(0.25, 1.0) * whole)
+        time.sleep(rng.uniform(0.0, 0.03) if after else rng.uniform(0.2, 0.9) * whole)
         with suppress(ProcessLookupError):
             process.send_signal(signal.SIGINT)
         _, talk = process.communicate(timeout=60)

@@ -4,8 +4,8 @@ import json
 
 import pytest
 
-from halfway.errors import FormatError, OutputError
 from halfway.batch import Batch, Checksum, Manifest, verify
+from halfway.errors import FormatError, OutputError
 
 MADE = {"by": "test"}
 OUTPUTS = {"a.txt": {"t": 0}, "b.txt": {"t": 1}, "deep/c.txt": {"t": 2}}
