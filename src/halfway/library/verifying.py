@@ -63,4 +63,6 @@ def _checksums(source: str) -> dict[str, str]:
 
 def _has_changed(entry: Entry, now: Mapping[str, Mapping[str, str]]) -> bool:
     source = _file(entry)
-    return source is not None and source in now and now[source].get(entry.name) != entry.source_sha256
+    return (
+        source is not None and source in now and now[source].get(entry.name) != entry.source_sha256
+    )
