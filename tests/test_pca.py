@@ -1,5 +1,8 @@
 """Principal components, against scikit-learn and the paper."""
 
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
@@ -287,3 +290,27 @@ def test_a_large_library_is_sketched(synthetic_300, monkeypatch, tmp_path):
     assert_allclose(*left, rtol=1e-6)
     assert found.joint_scores(3).shape == (300, 3)
     assert_allclose(abs(found.joint_scores(3)), abs(exact.joint_scores(3)), rtol=1e-3, atol=1e-3)
+
+
+FIRST_FIT = """
+from threadpoolctl import threadpool_info
+from halfway import Pca, open_library
+from halfway.library import gram
+
+add, threads = gram._add_products, set()
+
+def spy(*arguments):
+    result = add(*arguments)
+    threads.update(i["num_threads"] for i in threadpool_info() if i["user_api"] == "blas")
+    return result
+
+gram._add_products = spy
+Pca.fit(open_library("builtin:synthetic-4"))
+print(threads)
+"""
+
+
+def test_every_blas_has_one_thread_in_the_first_fit_of_a_process():
+    """Scipy's own, loaded inside a task, had one a core: 17 times the CPU time on a busy machine."""
+    found = subprocess.check_output([sys.executable, "-c", FIRST_FIT], text=True)
+    assert found == "{1}\n"

@@ -136,6 +136,9 @@ class _Sum(NamedTuple):
 
 
 def _sum(library: Library, part: Part, track: Track, engine: Engine) -> _Sum:
+    # Scipy has a BLAS of its own: the limit of one thread a task binds those that are loaded when the tasks begin.
+    import scipy.linalg.blas  # noqa: F401  # pyright: ignore[reportUnusedImport]
+
     n, total = len(library), _zeros(library, part)
     blocks = run(
         partial(gram_block, library, part),
