@@ -107,7 +107,7 @@ def draw(rows: dict[str, list[tuple[float, float, float]]]) -> None:
     from matplotlib.figure import Figure
 
     with mpl.rc_context(STYLE):
-        figure = Figure(figsize=(9, 3.8), layout="constrained")
+        figure = Figure(figsize=(9, 4.2), layout="constrained")
         left, right = figure.subplots(1, 2)
         for name, places in rows.items():
             size, relative, psnr = zip(*places, strict=True)
@@ -117,7 +117,10 @@ def draw(rows: dict[str, list[tuple[float, float, float]]]) -> None:
             xscale="log", yscale="log", xlabel="file (MB)", ylabel="mean relative error (Table I)"
         )
         right.set(xscale="log", xlabel="file (MB)", ylabel="PSNR of a lit sphere, median (dB)")
-        right.legend(fontsize=7.5)
+        for ax in (left, right):
+            ax.set_xticks([5, 10, 20, 50, 100, 200, 400], [5, 10, 20, 50, 100, 200, 400])
+            ax.minorticks_off()
+        figure.legend(*right.get_legend_handles_labels(), loc="outside lower center", ncols=3)
         figure.savefig(OUTPUT, metadata={"Date": None})
 
 

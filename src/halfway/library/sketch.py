@@ -23,6 +23,7 @@ from typing import NamedTuple
 
 import numpy as np
 from jaxtyping import Float64, Int
+from threadpoolctl import threadpool_limits
 
 from ..errors import LibraryError
 from ..tasks import THREADS, Engine, Track, run, silent
@@ -81,7 +82,8 @@ def sketch(
 def _orthonormal(
     vectors: Float64[np.ndarray, "n_channels N n_vectors"],
 ) -> Float64[np.ndarray, "n_channels N n_vectors"]:
-    return np.linalg.qr(vectors)[0]
+    with threadpool_limits(1, "blas"):
+        return np.linalg.qr(vectors)[0]
 
 
 class _Sum(NamedTuple):
@@ -147,9 +149,10 @@ def _nystrom(
     w: Float64[np.ndarray, "N n_vectors"], y: Float64[np.ndarray, "N n_vectors"]
 ) -> tuple[Float64[np.ndarray, " n_vectors"], Float64[np.ndarray, "N n_vectors"]]:
     """Eigenvalues, descending, and eigenvectors of ``y (w^T y)^+ y^T``; 0 past its rank."""
-    core = w.T @ y
-    values, turn = np.linalg.eigh((core + core.T) / 2)
-    # What is within rounding of 0 has no inverse.
-    roots = np.where(values > len(core) * np.finfo(float).eps * values[-1], values, np.inf)
-    vectors, singular, _ = np.linalg.svd(y @ (turn / np.sqrt(roots)), full_matrices=False)
+    with threadpool_limits(1, "blas"):
+        core = w.T @ y
+        values, turn = np.linalg.eigh((core + core.T) / 2)
+        # What is within rounding of 0 has no inverse.
+        roots = np.where(values > len(core) * np.finfo(float).eps * values[-1], values, np.inf)
+        vectors, singular, _ = np.linalg.svd(y @ (turn / np.sqrt(roots)), full_matrices=False)
     return singular**2, vectors
