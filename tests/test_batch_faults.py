@@ -23,6 +23,7 @@ GRID = Grid.merl(24, 20, 40)
 N_KILLS = 10
 EXIT_130 = (130, -signal.SIGINT)
 """As a shell counts; Python ends itself by the signal where a compiled module saw it first."""
+USAGE = 2
 INTERRUPTED = (
     "halfway: interrupted; what was finished is kept, and the same command goes on from there.\n"
 )
@@ -109,30 +110,41 @@ def test_a_batch_killed_at_random_moments_ends_right(server, reference, tmp_path
         assert not list(out.glob(".*"))
 
 
+TRIES = 10
+"""On a busy machine a signal may come when all is done; then it is sent to another run."""
+
+
 def test_ctrl_c_is_one_line_and_leaves_no_temporary(library, reference, tmp_path):
     command = [sys.executable, "-m", "halfway", "route", library.path, *library.names, "-n", N]
-    command += ["--space", "linear", "--pace", "uniform", "--format", "merl", "-o", "out"]
-    process = subprocess.Popen(
-        list(map(str, command)), cwd=tmp_path, stderr=subprocess.PIPE, text=True
-    )
-    while process.poll() is None and not (tmp_path / "out" / "003.binary").exists():
-        time.sleep(0.001)
-    process.send_signal(signal.SIGINT)
-    _, talk = process.communicate(timeout=60)
-    found = contents(tmp_path / "out")
-    assert {name: reference[name] for name in found} == found
-    assert not list((tmp_path / "out").glob(".*"))
+    command += ["--space", "linear", "--pace", "uniform", "--format", "merl", "-o"]
+    for i in range(TRIES):
+        out = tmp_path / f"out-{i}"
+        process = subprocess.Popen(
+            [*map(str, command), str(out)], stderr=subprocess.PIPE, text=True
+        )
+        while process.poll() is None and not (out / "003.binary").exists():
+            time.sleep(0.001)
+        process.send_signal(signal.SIGINT)
+        _, talk = process.communicate(timeout=60)
+        found = contents(out)
+        assert {name: reference[name] for name in found} == found
+        assert not list(out.glob(".*"))
+        if process.returncode:
+            break
     assert process.returncode in EXIT_130
     assert talk == INTERRUPTED
 
 
 def test_ctrl_c_while_it_starts_is_one_line():
     command = [sys.executable, "-X", "importtime", "-m", "halfway", "route"]
-    with subprocess.Popen(command, stderr=subprocess.PIPE, text=True) as process:
-        assert process.stderr is not None
-        next(line for line in process.stderr if "typer" in line)
-        process.send_signal(signal.SIGINT)
-        said = [line for line in process.stderr if not line.startswith("import time:")]
+    for _ in range(TRIES):
+        with subprocess.Popen(command, stderr=subprocess.PIPE, text=True) as process:
+            assert process.stderr is not None
+            next(line for line in process.stderr if "typer" in line)
+            process.send_signal(signal.SIGINT)
+            said = [line for line in process.stderr if not line.startswith("import time:")]
+        if process.returncode != USAGE:
+            break
     assert process.returncode in EXIT_130
     assert said == [INTERRUPTED]
 

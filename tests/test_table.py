@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import assume, given
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 from scipy.interpolate import RegularGridInterpolator
@@ -70,6 +70,8 @@ def test_below_the_horizon_is_zero():
 
 @given(directions(), directions())
 def test_tables_are_reciprocal(wi, wo):
+    # Nearer than rounding the difference has no direction, and phi_d no value.
+    assume(np.linalg.norm(wi - wo) > 1e-9)
     for interpolation in ("trilinear", "floor"):
         a, b = (TABLE.eval(*pair, interpolation=interpolation) for pair in ((wi, wo), (wo, wi)))
         # A pair on the border of a cell may fall to either side.

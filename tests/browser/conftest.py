@@ -109,6 +109,11 @@ class Explorer:
     def recipe(self) -> list[str]:
         return self.page.locator(".recipe .name").all_text_contents()
 
+    def wait_for_recipe(self, names: list[str]) -> None:
+        """Until the page shows the recipe of these materials."""
+        shown = "names => names.join() === [...document.querySelectorAll('.recipe .name')].map(e => e.textContent).join()"
+        self.page.wait_for_function(shown, arg=names)
+
     @property
     def stops(self) -> list[str]:
         return [

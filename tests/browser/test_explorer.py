@@ -148,9 +148,9 @@ def test_another_body_colour_leaves_the_route_and_comes_back(explorer: Explorer)
     left = explorer.recipe
     explorer.page.reload()
     back.wait_for()
-    assert explorer.recipe == left
+    explorer.wait_for_recipe(left)
     back.click()
-    assert explorer.recipe == on_route
+    explorer.wait_for_recipe(on_route)
 
 
 def test_the_present_material_is_dragged_through_the_space(explorer: Explorer) -> None:
