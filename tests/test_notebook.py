@@ -4,6 +4,8 @@ import asyncio
 import json
 import subprocess
 import sys
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
@@ -97,7 +99,8 @@ def test_a_message_is_answered_as_a_request(
     sent: list[tuple[dict[str, Any], list[bytes]]] = []
     text = None if body is None else json.dumps(body)
     message = {"id": 7, "method": method, "path": path, "body": text}
-    Answerer(app, lambda content, buffers: sent.append((content, buffers))).receive(message)
+    answerer = Answerer(app, lambda content, buffers: sent.append((content, buffers)))
+    _apart(lambda: answerer.receive(message))
     client = TestClient(app, base_url="http://localhost", raise_server_exceptions=False)
     expected = client.request(method, f"/{path}", json=body)
     ((content, buffers),) = sent
@@ -118,8 +121,14 @@ def test_a_kernel_that_runs_a_loop_answers_in_it(answers: Answers) -> None:
         while not sent:
             await asyncio.sleep(0.01)
 
-    asyncio.run(asyncio.wait_for(kernel(), 10))
+    _apart(lambda: asyncio.run(asyncio.wait_for(kernel(), 10)))
     assert sent[0]["status"] == 200
+
+
+def _apart(f: Callable[[], None]) -> None:
+    """In a thread without a loop: tests in a browser leave one running in theirs."""
+    with ThreadPoolExecutor(1) as pool:
+        pool.submit(f).result()
 
 
 def test_without_the_extra_one_line_says_how_to_get_it() -> None:
