@@ -10,7 +10,8 @@ where D is the density of normals (`ndf`) and sigma(i) the area of the microsurf
 has one phi_i and takes phi_m relative to it.
 
 A renderer that traces rays from the camera puts the viewer in the place of ``i``, and so does `RglBrdf.eval`: it is
-what Mitsuba's `measured` and pbrt-v4 show. Where a measurement is not reciprocal, a table takes the mean of both orders.
+what Mitsuba's `measured` shows (pbrt-v4 takes the light for the fixed direction in `f`, the viewer in `Sample_f`).
+Where a measurement is not reciprocal, a table takes the mean of both orders.
 
 Source: J. Dupuy, W. Jakob, "An Adaptive Parameterization for Efficient Material Acquisition and Rendering", ACM TOG
 37(6), 2018; the names of the fields and their order are those of the readers (Mitsuba's `measured`,
