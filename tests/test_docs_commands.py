@@ -38,6 +38,8 @@ NOT_RUN = {
     r"\.mp4": "needs an extra",
 }
 """Which commands are not run here, and why."""
+BLOCKS_NOT_RUN = {"cluster": "needs a cluster (tested in test_cluster)"}
+"""The pages whose Python is not run here, and why."""
 GIVEN = {
     "metal": "halfway route cherry-235 tungsten-carbide -n 5 -o metal",
     "new.binary": 'halfway mix "gold-paint=0.7, teflon=0.3" -o new.binary',
@@ -121,7 +123,11 @@ def test_commands_run(page, monkeypatch, capsys):
         n_run += 1
 
 
-@pytest.mark.parametrize("page", [p for p in PAGES if blocks(p)], ids=lambda page: page.stem)
+@pytest.mark.parametrize(
+    "page",
+    [page for page in PAGES if blocks(page) and page.stem not in BLOCKS_NOT_RUN],
+    ids=lambda page: page.stem,
+)
 def test_python_blocks_run(page):
     """Those of a page are one program."""
     names: dict[str, object] = {"__name__": "__main__"}
