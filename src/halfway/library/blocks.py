@@ -1,20 +1,25 @@
 """How a library is cut into blocks of columns, the tasks of everything that streams it.
 
-A block of n columns is read whole, 3 x N x n float32, and worked on in pieces that stay in a core's cache, N x w float64 of
-one channel at a time. Up to a few hundred materials a block is one piece. Beyond, pieces are narrow, and reading them
-one by one would be thousands of short reads far apart: a block is then as wide as memory allows.
+A block of n columns is read whole, 3 x N x n float32: wide enough that a run of one material is worth a read, and as narrow
+as memory asks. Sums over cells are made in pieces of it, N x w float64 of one channel at a time, that stay in a core's cache;
+with many materials that would be a sliver, and a product of matrices wants a thousand columns more than the cache.
 
-    columns     max(w, min(4096, 64 MB / 12 N))         w = 16 MB / 8 N
+    block       n = max(16 MB / 8 N, min(4096, 64 MB / 12 N))
+    piece       w = max(1.6 MB / 8 N, min(1000, 16 MB / 8 N))
 """
 
 from .._types import Part
 
 WORK_BYTES = 16e6
-"""About how many bytes of float64 a piece holds: small enough for a cache, large enough for BLAS."""
+"""About how many bytes of float64 one channel of a block holds."""
 BLOCK_BYTES = 64e6
 """How many bytes of float32 a block of many materials holds, at most."""
 LONG_RUN = 4096
 """Samples of one material that are worth a read."""
+CACHE_BYTES = 1.6e6
+"""About how many bytes of float64 a core keeps near."""
+LONG_PRODUCT = 1000
+"""Columns of a piece that are worth a product of matrices."""
 
 
 def columns_per_block(n_materials: int) -> int:
@@ -25,7 +30,8 @@ def columns_per_block(n_materials: int) -> int:
 
 def columns_per_piece(n_materials: int) -> int:
     """Columns of a piece of a block."""
-    return max(1, int(WORK_BYTES / (8 * n_materials)))
+    most = min(LONG_PRODUCT, WORK_BYTES / (8 * n_materials))
+    return max(1, int(max(CACHE_BYTES / (8 * n_materials), most)))
 
 
 def ranges(stop: int, step: int) -> list[slice]:

@@ -25,9 +25,9 @@ import numpy as np
 from jaxtyping import Float64, Int
 
 from ..errors import LibraryError
-from ..tasks import THREADS, Engine, Track, run, silent
-from .blocks import columns_per_piece, ranges
+from ..tasks import THREADS, Engine, Track, silent
 from .library import Library
+from .sums import measured_pieces, sum_blocks
 
 Products = Float64[np.ndarray, "n_channels n_pairs"]
 """Of a symmetric matrix per channel, the lower triangle row by row."""
@@ -136,80 +136,30 @@ class _Sum(NamedTuple):
 
 
 def _sum(library: Library, part: Part, track: Track, engine: Engine) -> _Sum:
-    # Scipy has a BLAS of its own: the limit of one thread a task binds those that are loaded when the tasks begin.
-    import scipy.linalg.blas  # noqa: F401  # pyright: ignore[reportUnusedImport]
-
-    n, total = len(library), _zeros(library, part)
-    blocks = run(
-        partial(gram_block, library, part),
-        library.blocks(),
-        label="Gram matrices",
-        track=track,
-        engine=engine,
-    )
-    for block in blocks:
-        for whole, piece in zip(total, block, strict=True):
-            whole += piece
-    if not total.n_cells.all():
-        raise LibraryError(
-            f"{library.name} has no cell that is measured in all of its {n} materials: a PCA needs some. "
-            "Build a library of materials that were measured on the same cells."
-        )
-    return total
-
-
-def _zeros(library: Library, part: Part) -> _Sum:
-    c, n, n_rows = library.n_channels, len(library), len(part.rows)
-    n_products = n * (n + 1) // 2 if n_rows == n else n * n_rows
-    return _Sum(np.zeros((c, n_products)), np.zeros((c, n_rows)), np.zeros(c, np.int64))
+    block = partial(gram_block, library, part)
+    return sum_blocks(library, block, label="Gram matrices", track=track, engine=engine)
 
 
 def gram_block(library: Library, part: Part, columns: slice) -> _Sum:
     """The task of a pass: the products on one block."""
-    total = _zeros(library, part)
-    for channel, samples in enumerate(library.columns(columns)):
-        total.products[channel], total.norms[channel], total.n_cells[channel] = _channel(
-            samples, part
-        )
-    return total
+    found = [_channel(samples, part) for samples in library.columns(columns)]
+    products, norms, n_cells = zip(*found, strict=True)
+    return _Sum(np.stack(products), np.stack(norms), np.array(n_cells))
 
 
 def _channel(samples: np.ndarray, part: Part) -> tuple[np.ndarray, np.ndarray, int]:
-    """The products of one channel of a block, a piece of it at a time that stays in a core's cache."""
-    n, n_columns = samples.shape
-    whole = len(part.rows) == n
-    products = np.zeros((n, n) if whole else (len(part.rows), n), order="F")
-    norms, n_cells = np.zeros(len(part.rows)), 0
-    for piece in ranges(n_columns, columns_per_piece(n)):
-        u = measured_everywhere(samples[:, piece])
-        if not u.size:
-            continue
+    """The products of one channel of a block."""
+    n, rows = len(samples), part.rows
+    whole = len(rows) == n
+    products, norms, n_cells = np.zeros((len(rows), n)), np.zeros(len(rows)), 0
+    for u in measured_pieces(samples):
         n_cells += u.shape[1]
-        rows = u if whole else u[part.rows]
-        norms += np.einsum("ij,ij->i", rows, rows)
+        own = u if whole else u[rows]
+        norms += np.einsum("ij,ij->i", own, own)
         u -= u[part.origin].copy()
-        products = _add_products(products, u, None if whole else part.rows)
+        # Of a matrix with its own transpose, numpy has BLAS do half the work.
+        products += (u if whole else u[rows]) @ u.T
     return (pack(products) if whole else products.ravel()), norms, n_cells
-
-
-def measured_everywhere(samples: np.ndarray) -> Float64[np.ndarray, "N n_measured"]:
-    """The columns of ``samples`` without a NaN, in float64."""
-    # One pass: a sum is NaN where any of its terms is.
-    measured = ~np.isnan(samples.sum(axis=0))
-    return (samples if measured.all() else samples[:, measured]).astype(np.float64)
-
-
-def _add_products(
-    total: np.ndarray, u: Float64[np.ndarray, "N n"], rows: Int[np.ndarray, " n_rows"] | None
-) -> np.ndarray:
-    """``total + u[rows] u^T`` in place; where ``rows`` are all, half the work and the lower triangle alone."""
-    if rows is not None:
-        total += u[rows] @ u.T
-        return total
-    from scipy.linalg import blas  # a second to load
-
-    syrk = blas.dsyrk  # pyright: ignore[reportAttributeAccessIssue] (made at run time)
-    return syrk(1.0, u.T, beta=1.0, c=total, trans=1, lower=1, overwrite_c=1)
 
 
 def _joined(

@@ -87,12 +87,9 @@ class Pca:
         k = min(n_components or N_KEPT, n)
 
         def compute() -> dict[str, np.ndarray]:
-            # More than one thread of BLAS waits for itself on a busy machine: ten times the time, and more.
-            with threadpool_limits(1, "blas"):
-                if n > MOST_EXACT:
-                    return sketch(library, k, track=track, engine=engine)._asdict()
-                gram = kept_gram(library, cache, track=track, engine=engine)
-                return _components(gram, k)
+            if n > MOST_EXACT:
+                return sketch(library, k, track=track, engine=engine)._asdict()
+            return _components(kept_gram(library, cache, track=track, engine=engine), k)
 
         method = "exact" if n <= MOST_EXACT else f"sketch-{N_PASSES}"
         found = cached(cache, f"components-1-{method}-{k}-{library.checksum}", compute)
@@ -179,11 +176,15 @@ def _eigen(
     """The k largest eigenvalues, descending and non-negative, and their eigenvectors."""
     n = len(gram)
     if k == n:
-        eigenvalues, vectors = np.linalg.eigh(gram)
+        decompose = np.linalg.eigh
     else:
         from scipy.linalg import eigh  # a second to load
 
-        eigenvalues, vectors = eigh(gram, subset_by_index=(n - k, n - 1), check_finite=False)
+        decompose = partial(eigh, subset_by_index=(n - k, n - 1), check_finite=False)
+    # More than one thread of BLAS waits for itself on a busy machine: ten times the time, and more. The limit binds those
+    # that are loaded, and scipy has one of its own.
+    with threadpool_limits(1, "blas"):
+        eigenvalues, vectors = decompose(gram)
     return np.maximum(eigenvalues[::-1], 0.0), vectors[:, ::-1]
 
 

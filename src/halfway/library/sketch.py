@@ -25,11 +25,9 @@ import numpy as np
 from jaxtyping import Float64, Int
 from threadpoolctl import threadpool_limits
 
-from ..errors import LibraryError
-from ..tasks import THREADS, Engine, Track, run, silent
-from .blocks import columns_per_piece, ranges
-from .gram import measured_everywhere
+from ..tasks import THREADS, Engine, Track, silent
 from .library import Library
+from .sums import measured_pieces, sum_blocks
 
 N_PASSES = 2
 OVERSAMPLING = 32
@@ -94,49 +92,23 @@ class _Sum(NamedTuple):
 
 
 def _sum(library: Library, tests: np.ndarray, label: str, track: Track, engine: Engine) -> _Sum:
-    n, total = len(library), _zeros(tests)
-    blocks = run(
-        partial(sketch_block, library, tests),
-        library.blocks(),
-        label=label,
-        track=track,
-        engine=engine,
-    )
-    for block in blocks:
-        for whole, piece in zip(total, block, strict=True):
-            whole += piece
-    if not total.n_cells.all():
-        raise LibraryError(
-            f"{library.name} has no cell that is measured in all of its {n} materials: a PCA needs some. "
-            "Build a library of materials that were measured on the same cells."
-        )
-    return total
-
-
-def _zeros(tests: np.ndarray) -> _Sum:
-    norms = np.zeros(tests.shape[:2])
-    return _Sum(np.zeros_like(tests), norms, norms.copy(), np.zeros(len(tests), np.int64))
+    block = partial(sketch_block, library, tests)
+    return sum_blocks(library, block, label=label, track=track, engine=engine)
 
 
 def sketch_block(library: Library, tests: np.ndarray, columns: slice) -> _Sum:
     """The task of a pass: the images of the test vectors on one block."""
-    total = _zeros(tests)
-    for channel, samples in enumerate(library.columns(columns)):
-        found = _channel(samples, tests[channel])
-        for whole, piece in zip(total, found, strict=True):
-            whole[channel] = piece
-    return total
+    block = zip(library.columns(columns), tests, strict=True)
+    found = [_channel(samples, vectors) for samples, vectors in block]
+    return _Sum(*(np.stack(parts) for parts in zip(*found, strict=True)))
 
 
 def _channel(
     samples: np.ndarray, tests: Float64[np.ndarray, "N n_vectors"]
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, int]:
-    n, n_columns = samples.shape
+    n = len(samples)
     images, norms, centred, n_cells = np.zeros_like(tests), np.zeros(n), np.zeros(n), 0
-    for piece in ranges(n_columns, columns_per_piece(n)):
-        u = measured_everywhere(samples[:, piece])
-        if not u.size:
-            continue
+    for u in measured_pieces(samples):
         n_cells += u.shape[1]
         norms += np.einsum("ij,ij->i", u, u)
         u -= u.mean(axis=0)
