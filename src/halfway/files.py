@@ -184,7 +184,11 @@ def _explain(path: Place, error: OSError) -> str:
             return f"{path} cannot be written: the disk is full. Free some space; what was finished is kept."
         case errno.EACCES | errno.EROFS | errno.EPERM:
             return f"{path} cannot be written: no permission in {path.parent}. Choose another folder with -o."
+        case errno.ENOENT:
+            return (
+                f"{path} cannot be written: no folder can be made for it. Choose another with -o."
+            )
         case errno.ENOTDIR | errno.EEXIST:
             return f"{path} cannot be written: part of its path is a file, not a folder. Choose another with -o."
         case _:
-            return f"{path} cannot be written: {error.strerror or error}."
+            return f"{path} cannot be written: {error.strerror or error}. Choose another folder with -o."

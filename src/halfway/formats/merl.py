@@ -276,7 +276,11 @@ def _require_finite(samples: Samples, label: str) -> None:
 
 
 def _require_storable(table: TabularBrdf) -> None:
-    for what, wrong in (("negative", table.values < 0), ("infinite", np.isinf(table.values))):
+    values = table.values
+    # Faster than looking at each: of what is not NaN, the smallest and the largest.
+    if np.fmin.reduce(values, axis=None) >= 0 and np.fmax.reduce(values, axis=None) < np.inf:
+        return
+    for what, wrong in (("negative", values < 0), ("infinite", np.isinf(values))):
         if wrong.any():
             raise OutputError(
                 f"{table.name or 'the table'} has {int(wrong.sum()):,} {what} values: a MERL file holds finite ones, "

@@ -10,19 +10,18 @@ import hashlib
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from jaxtyping import Float32, Float64
 
-from .._types import Table
 from ..brdf.metrics import comparison_cells, log_relative
 from ..errors import LibraryError
 from ..tasks import THREADS, Engine, Track, run, silent
 from .blocks import ranges
 from .coding import Coding, Precision
 from .compact import Arrays, CompactLibrary, Header, write_compact
-from .library import Library
+from .library import Library, Streamed
 from .pca import Pca
 
 RUN = 1024
@@ -76,15 +75,12 @@ def compact_library(
     return CompactLibrary(path)
 
 
-class CodedRows(Library):
+class CodedRows(Streamed):
     """The coded rows of a library: what a compact library takes the components of."""
-
-    def __new__(cls, *_: Any, **__: Any) -> "CodedRows":
-        return object.__new__(cls)  # not a library that anyone looks for
 
     def __init__(self, library: Library, coding: Coding) -> None:
         self.library, self.coding = library, coding
-        self.name, self.grid, self.origin = library.name, library.grid, library.origin
+        self.name, self.grid = library.name, library.grid
         per_material = 3 // coding.n_bases
         self.names = tuple(f"{name} {i}" for i in range(per_material) for name in library.names)
         self.n_channels = coding.n_bases
@@ -92,9 +88,6 @@ class CodedRows(Library):
         self.checksum = hashlib.sha256(repr(what).encode()).hexdigest()
         # Which cells count depends on all materials: nothing of them is kept for another library.
         self.material_checksums = tuple(f"{self.checksum} {name}" for name in self.names)
-
-    def row(self, i: int) -> Table:
-        raise NotImplementedError(f"rows are read in blocks, not {i} alone")
 
     def columns(self, columns: slice) -> Float32[np.ndarray, "n_bases n_rows n"]:
         samples = self.library.columns(columns)

@@ -26,7 +26,7 @@ from jaxtyping import Float64, Int
 
 from ..errors import LibraryError
 from ..tasks import THREADS, Engine, Track, silent
-from .library import Library
+from .library import Streamed
 from .sums import measured_pieces, sum_blocks
 
 Products = Float64[np.ndarray, "n_channels n_pairs"]
@@ -49,7 +49,7 @@ class Gram:
     """Cells that count: measured in every material."""
 
     @classmethod
-    def of(cls, library: Library, *, track: Track = silent, engine: Engine = THREADS) -> "Gram":
+    def of(cls, library: Streamed, *, track: Track = silent, engine: Engine = THREADS) -> "Gram":
         """The products of all materials of ``library``, in one pass.
 
         Raises
@@ -62,7 +62,7 @@ class Gram:
         return cls(library.material_checksums, 0, total.products, total.norms, total.n_cells)
 
     def extended(
-        self, library: Library, *, track: Track = silent, engine: Engine = THREADS
+        self, library: Streamed, *, track: Track = silent, engine: Engine = THREADS
     ) -> "Gram":
         """The products of all materials of ``library``, which has those of this matrix among others.
 
@@ -135,12 +135,12 @@ class _Sum(NamedTuple):
     n_cells: Int[np.ndarray, " n_channels"]
 
 
-def _sum(library: Library, part: Part, track: Track, engine: Engine) -> _Sum:
+def _sum(library: Streamed, part: Part, track: Track, engine: Engine) -> _Sum:
     block = partial(gram_block, library, part)
     return sum_blocks(library, block, label="Gram matrices", track=track, engine=engine)
 
 
-def gram_block(library: Library, part: Part, columns: slice) -> _Sum:
+def gram_block(library: Streamed, part: Part, columns: slice) -> _Sum:
     """The task of a pass: the products on one block."""
     found = [_channel(samples, part) for samples in library.columns(columns)]
     products, norms, n_cells = zip(*found, strict=True)

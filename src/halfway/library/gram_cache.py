@@ -12,13 +12,13 @@ import numpy as np
 from ..tasks import THREADS, Engine, Track, silent
 from .cache import cached
 from .gram import Gram
-from .library import Library
+from .library import Streamed
 
 _KEY = "gram-2-"
 
 
 def kept_gram(
-    library: Library,
+    library: Streamed,
     cache: Path | None,
     *,
     track: Track = silent,
@@ -37,7 +37,7 @@ def kept_gram(
     return _to_gram(cached(cache, f"{_KEY}{library.checksum}", compute))
 
 
-def _largest_part(library: Library, cache: Path) -> Gram | None:
+def _largest_part(library: Streamed, cache: Path) -> Gram | None:
     ours = set(library.material_checksums)
     n_most, largest = 0, None
     for path in cache.glob(f"{_KEY}*.npz"):

@@ -18,7 +18,10 @@ from itertools import count
 from typing import Any, TypeVar
 from weakref import WeakValueDictionary
 
-from .._types import Rows, Table
+import numpy as np
+from jaxtyping import Float32
+
+from .._types import Table
 from ..brdf import TabularBrdf
 from ..errors import LibraryError
 from ..halfdiff import Grid
@@ -41,19 +44,38 @@ _IN_USE: WeakValueDictionary[int, "Library"] = WeakValueDictionary()
 _ORDER = count()
 
 
-class Library(ABC):
-    """A set of materials on one grid."""
+class Streamed(ABC):
+    """N rows of samples on one grid, in one or more channels, read a block of columns at a time.
+
+    What principal components are made of: a library, or something computed from one.
+    """
 
     n_channels = 3
     """Colour channels, each analysed by itself."""
     name: str
     names: tuple[str, ...]
     grid: Grid
-    origin: Origin
     checksum: str
     """Hex digits that change when any sample, name or the grid changes."""
     material_checksums: tuple[str, ...]
-    """Of each material alone: hex digits that change when its name, a sample of it, or the grid changes."""
+    """Of each row alone: hex digits that change when its name, a sample of it, or the grid changes."""
+
+    @abstractmethod
+    def columns(self, columns: slice) -> Float32[np.ndarray, "n_channels N n"]:
+        """Samples of all rows on one of the ranges of `blocks`."""
+
+    @abstractmethod
+    def blocks(self) -> list[slice]:
+        """Ranges of columns that together cover the grid once."""
+
+    def __len__(self) -> int:
+        return len(self.names)
+
+
+class Library(Streamed):
+    """A set of materials on one grid."""
+
+    origin: Origin
 
     @property
     def address(self) -> str:
@@ -68,17 +90,6 @@ class Library(ABC):
     @abstractmethod
     def row(self, i: int) -> Table:
         """All samples of material ``i``, shape (3, p), float32, 1/sr; NaN where unmeasured. The caller owns it."""
-
-    @abstractmethod
-    def columns(self, columns: slice) -> Rows:
-        """Samples of all materials on one of the ranges of `blocks`, shape (3, N, n)."""
-
-    @abstractmethod
-    def blocks(self) -> list[slice]:
-        """Ranges of columns that together cover the grid once."""
-
-    def __len__(self) -> int:
-        return len(self.names)
 
     def __repr__(self) -> str:
         return f"<{type(self).__name__} {self.name!r}: {len(self)} materials on {self.grid}>"

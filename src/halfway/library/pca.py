@@ -35,7 +35,7 @@ from ..tasks import THREADS, Engine, Track, run, silent
 from .cache import cached
 from .gram import Gram
 from .gram_cache import kept_gram
-from .library import Library
+from .library import Library, Streamed
 from .sketch import N_PASSES, sketch
 
 N_KEPT = 256
@@ -64,7 +64,7 @@ class Pca:
     @classmethod
     def fit(
         cls,
-        library: Library,
+        library: Streamed,
         *,
         n_components: int | None = None,
         cache: Path | None = None,

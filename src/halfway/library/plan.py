@@ -1,6 +1,6 @@
 """What the principal components of a library will take: blocks, memory, time.
 
-    peak = total + threads x (block + pieces + result + N^2 products of one channel) + waiting results
+    peak = total + threads x (block + pieces + result + 2 N^2 products of one channel) + waiting results
 
 where a result is what one task returns, 12 N (N + 1) bytes of a Gram matrix or 24 N l of a sketch with l test vectors. It
 counts the arrays; the interpreter and its libraries take some 150 MB beside them.
@@ -57,7 +57,8 @@ class PcaPlan:
         result = 12 * n * (n + 1) if n_vectors is None else 24 * n * n_vectors
         block_bytes = 12 * n * n_columns
         task = block_bytes + 2 * 8 * n * min(n_columns, columns_per_piece(n)) + result
-        task += 8 * n**2 if n_vectors is None else 0
+        # A piece's products, and their sum.
+        task += 16 * n**2 if n_vectors is None else 0
         # Beside the sum, a sketch holds its test vectors and their orthonormal copy.
         held = result if n_vectors is None else 3 * result
         n_passes = 1 if n_vectors is None else N_PASSES

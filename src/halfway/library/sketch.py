@@ -26,7 +26,7 @@ from jaxtyping import Float64, Int
 from threadpoolctl import threadpool_limits
 
 from ..tasks import THREADS, Engine, Track, silent
-from .library import Library
+from .library import Streamed
 from .sums import measured_pieces, sum_blocks
 
 N_PASSES = 2
@@ -47,7 +47,7 @@ class Sketch(NamedTuple):
 
 
 def sketch(
-    library: Library,
+    library: Streamed,
     n_components: int,
     *,
     n_passes: int = N_PASSES,
@@ -91,12 +91,12 @@ class _Sum(NamedTuple):
     n_cells: Int[np.ndarray, " n_channels"]
 
 
-def _sum(library: Library, tests: np.ndarray, label: str, track: Track, engine: Engine) -> _Sum:
+def _sum(library: Streamed, tests: np.ndarray, label: str, track: Track, engine: Engine) -> _Sum:
     block = partial(sketch_block, library, tests)
     return sum_blocks(library, block, label=label, track=track, engine=engine)
 
 
-def sketch_block(library: Library, tests: np.ndarray, columns: slice) -> _Sum:
+def sketch_block(library: Streamed, tests: np.ndarray, columns: slice) -> _Sum:
     """The task of a pass: the images of the test vectors on one block."""
     block = zip(library.columns(columns), tests, strict=True)
     found = [_channel(samples, vectors) for samples, vectors in block]

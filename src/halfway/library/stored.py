@@ -165,6 +165,7 @@ def tables_name(checksum: str, path: Place) -> str:
 
 
 def npy_header(shape: tuple[int, ...]) -> bytes:
+    """How a .npy file of little-endian float32 of this shape begins."""
     header = io.BytesIO()
     np.lib.format.write_array_header_1_0(
         header, {"descr": "<f4", "fortran_order": False, "shape": shape}

@@ -9,14 +9,14 @@ from jaxtyping import Float64
 from ..errors import LibraryError
 from ..tasks import Engine, Track, run
 from .blocks import columns_per_piece, ranges
-from .library import Library
+from .library import Streamed
 
 S = TypeVar("S", bound=tuple[np.ndarray, ...])
 """Arrays that add up; the last counts the cells of each channel."""
 
 
 def sum_blocks(
-    library: Library,
+    library: Streamed,
     of_block: Callable[[slice], S],
     *,
     label: str,
