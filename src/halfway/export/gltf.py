@@ -110,6 +110,14 @@ def _document(fit: Fit, buffer: dict[str, Any]) -> dict[str, Any]:
         ],
         "cameras": [{"type": "perspective", "perspective": camera}],
         "materials": [{**material, "extras": {"fit": fit.to_json()["error"]}}],
+        **_geometry(mesh),
+        "buffers": [{**buffer, "byteLength": len(mesh.data)}],
+    }
+
+
+def _geometry(mesh: Mesh) -> dict[str, Any]:
+    """The sphere as glTF says where it is in the buffer."""
+    return {
         "meshes": [
             {
                 "name": "sphere",
@@ -143,7 +151,6 @@ def _document(fit: Fit, buffer: dict[str, Any]) -> dict[str, Any]:
                 "target": VERTICES,
             },
         ],
-        "buffers": [{**buffer, "byteLength": len(mesh.data)}],
     }
 
 
