@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
+from jaxtyping import Float32, Float64
 
 from .._types import Directions, Part, Table, Values
 from ..errors import FormatError
@@ -21,6 +22,7 @@ from ..halfdiff import Corners, Grid
 from .brdf import Brdf
 
 Interpolation = Literal["trilinear", "floor"]
+_CHUNK = 1 << 14  # pairs looked up at once: what they need stays in a cache
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,8 +80,13 @@ class TabularBrdf(Brdf):
         wi, wo = np.broadcast_arrays(wi, wo)
         lit = (wi[..., 2] > 0) & (wo[..., 2] > 0)
         lookup = self.grid.multilinear if interpolation == "trilinear" else self.grid.floor
+        above_i, above_o = wi[lit], wo[lit]
+        found = np.empty((len(above_i), 3))
+        for start in range(0, len(found), _CHUNK):
+            chunk = slice(start, start + _CHUNK)
+            found[chunk] = self._blend(lookup(above_i[chunk], above_o[chunk])).T
         result = np.zeros((*lit.shape, 3))
-        result[lit] = self._blend(lookup(wi[lit], wo[lit])).T
+        result[lit] = found
         return result
 
     def fingerprint(self) -> bytes:
@@ -90,17 +97,22 @@ class TabularBrdf(Brdf):
             return super().sample_rows(grid, rows)
         return self.values[(slice(None), *(rows if isinstance(rows, tuple) else (rows,)))]
 
-    def _blend(self, corners: Corners) -> np.ndarray:
-        samples = self.values.reshape(3, -1)
-        total = np.zeros((3, corners.cells.shape[-1]))
-        measured_weight = np.zeros_like(total)
-        for cells, weights in zip(*corners, strict=True):
-            sample = samples[:, cells]
-            measured = ~np.isnan(sample)
-            total += np.where(measured, weights * sample, 0.0)
-            measured_weight += np.where(measured, weights, 0.0)
-        with np.errstate(invalid="ignore"):
-            return total / measured_weight
+    def _blend(self, corners: Corners) -> Float64[np.ndarray, "3 n"]:
+        samples = np.take(self.values.reshape(3, -1), corners.cells, axis=1)
+        blended = np.einsum("cjn,jn->cn", samples, corners.weights)
+        partly = np.isnan(blended).any(axis=0)
+        if partly.any():
+            blended[:, partly] = _renormalised(samples[..., partly], corners.weights[:, partly])
+        return blended
+
+
+def _renormalised(
+    samples: Float32[np.ndarray, "3 n_corners n"], weights: Float64[np.ndarray, "n_corners n"]
+) -> Float64[np.ndarray, "3 n"]:
+    """The blend of the corners that are measured; NaN where none is."""
+    counted = np.where(np.isnan(samples), 0.0, weights)
+    with np.errstate(invalid="ignore"):
+        return (counted * np.nan_to_num(samples)).sum(axis=1) / counted.sum(axis=1)
 
 
 def tabulate(brdf: Brdf, grid: Grid, *, name: str = "") -> TabularBrdf:
