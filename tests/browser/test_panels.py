@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pytest
 from conftest import Explorer  # pyright: ignore[reportMissingImports]
-from playwright.sync_api import Request
+from playwright.sync_api import Request, Route
 
 from halfway.brdf import directional_albedo
 from halfway.library import ProceduralLibrary
@@ -165,6 +165,21 @@ def test_crossing_into_the_next_simplex_never_blanks_the_picture(explorer: Explo
     )
     assert seen["recipes"] > 2
     assert min(seen["covered"]) == pytest.approx(max(seen["covered"]), rel=0.05), json.dumps(seen)
+
+
+def test_until_the_route_has_come_the_picture_is_empty(explorer: Explorer) -> None:
+    held: list[Route] = []
+    explorer.page.route("**/api/route*", lambda route: held.append(route))
+    explorer.open("#space=linear&stops=cherry-235,gold-paint&t=0.5&light=points")
+    # The tables of the stops beside t are here, and no one knows yet how they are mixed.
+    explorer.page.wait_for_function(
+        "() => document.querySelector('.material .note').textContent === '0 / 128 samples'"
+    )
+    explorer.page.wait_for_timeout(300)
+    assert explorer.page.evaluate(DRAWN) == 0
+    held[0].continue_()
+    explorer.wait_for_picture()
+    assert explorer.page.evaluate(DRAWN) > 0.1
 
 
 def test_few_tables_are_asked_for_at_a_time(explorer: Explorer) -> None:

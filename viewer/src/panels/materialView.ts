@@ -64,7 +64,8 @@ function paint(
   let quality = 1;
   let refined = true;
   let idle = 0;
-  const measured = new Set<boolean>();
+  /** By whether the light is the three points: begun, and done. */
+  const prepared = new Map<boolean, boolean>();
   const hold = el("canvas.view.hold", { "aria-hidden": "true", hidden: true });
   canvas.after(hold);
   const fitSize = () => {
@@ -99,15 +100,25 @@ function paint(
   };
   const loading = new Set<Light>();
   let shownLight: Environment | null = environments.get("studio") ?? null;
-  const measure = (name: string, light: Light) => {
-    const kind = light === "points";
-    const milliseconds = measured.has(kind) ? null : painter.measure(name);
-    if (milliseconds === null) return;
-    measured.add(kind);
-    const share = Math.max(0.4, Math.min(1, Math.sqrt(PATIENCE / milliseconds)));
-    loop.passMilliseconds = milliseconds * share ** 2;
-    if (share >= quality) return;
-    quality = share;
+  /** Shaders, and how large a picture this card can draw while something moves: before the tables come. */
+  const prepare = async () => {
+    const { underPoints } = painter;
+    if (prepared.has(underPoints)) return;
+    prepared.set(underPoints, false);
+    await painter.warmUp();
+    // Had the light changed meanwhile, its own turn comes.
+    if (signal.aborted || painter.underPoints !== underPoints) {
+      prepared.delete(underPoints);
+      return;
+    }
+    const milliseconds = painter.measure();
+    prepared.set(underPoints, true);
+    const present = refined ? 1 : quality;
+    const fitting = Math.max(LEAST_QUALITY, present * Math.min(1, Math.sqrt(PATIENCE / milliseconds)));
+    loop.passMilliseconds = milliseconds * (fitting / present) ** 2;
+    loop.goOn();
+    if (fitting === present) return;
+    quality = fitting;
     refined = false;
     fitSize();
   };
@@ -134,19 +145,27 @@ function paint(
     hold.hidden = false;
   };
   const loop = new Loop(() => {
-    const { recipe, otherRecipe, split, exposure, light } = store.get();
-    if (recipe[0]) measure(recipe[0].name, light);
-    const names = [...new Set([...recipe, ...otherRecipe].map(({ name }) => name))];
+    if (!prepared.get(painter.underPoints)) {
+      if (painter.hasSize) void prepare();
+      return false;
+    }
+    const { recipe, otherRecipe, split, exposure } = store.get();
+    const names = recipe.length
+      ? [...new Set([...recipe, ...otherRecipe].map(({ name }) => name))]
+      : stopsBesideT();
     const missing = names.filter((name) => tables.get(name) === undefined);
     const budget = loop.budget();
-    // What has no picture at all gets one in any case.
-    const blank = painter.improve(names, 1, 1);
-    const working = painter.improve(names, budget) || blank;
+    // What has no picture at all gets one in any case, and is shown before it gets better.
+    const first = painter.improve(names, Math.max(1, Math.floor(AT_ONCE / loop.passMilliseconds)), 1) > 0;
+    const working = first || (recipe.length > 0 && painter.improve(names, budget) === budget);
     // Then what the slider meets next, at a few samples: crossing into it shows at once.
+    const half = Math.ceil(budget / 2);
     const ahead =
-      !working && painter.improve(comingUp().slice(0, N_AHEAD), Math.ceil(budget / 2), SAMPLES_AHEAD);
+      recipe.length > 0 &&
+      !working &&
+      painter.improve(comingUp().slice(0, N_AHEAD), half, SAMPLES_AHEAD) === half;
     painter.show(recipe, otherRecipe, split, 2 ** exposure);
-    const samples = names.length && !missing.length ? painter.samples(names) : 0;
+    const samples = recipe.length && !missing.length ? painter.samples(names) : 0;
     note.textContent = missing.length
       ? `loading ${names.length === 1 ? "the table" : `${names.length} tables`}, ${Math.round(100 * tables.share(names))} %`
       : `${samples} / ${painter.targetSamples} samples`;
@@ -165,6 +184,12 @@ function paint(
     const { route, otherRoute, t } = store.get();
     const [own, other] = [route, otherRoute].map((r) => (r ? nearestFirst(r, t) : []));
     return [...new Set(own!.flatMap((name, i) => [name, other![i] ?? name]).concat(other!))];
+  };
+  /** A good guess before the route has come. */
+  const stopsBesideT = () => {
+    const { stops, t } = store.get();
+    const leg = Math.min(Math.floor(t * (stops.length - 1)), stops.length - 2);
+    return stops.slice(leg, leg + 2);
   };
   onResize(panel, () => {
     fitSize();
@@ -186,10 +211,7 @@ function paint(
     ({ recipe, otherRecipe }) => [recipe, otherRecipe] as const,
     ([recipe, otherRecipe]) => {
       const needed = [...new Set([...recipe, ...otherRecipe].map(({ name }) => name))];
-      const { stops, t } = store.get();
-      // Before the route has come, the stops beside t are a good guess.
-      const leg = Math.min(Math.floor(t * (stops.length - 1)), stops.length - 2);
-      tables.want(needed, needed.length ? comingUp() : stops.slice(leg, leg + 2));
+      tables.want(needed, needed.length ? comingUp() : stopsBesideT());
     },
   );
   tables.onProgress = () => loop.goOn();
@@ -208,6 +230,10 @@ const SAMPLES_TO_SHOW = 48;
 const MOST_PIXELS = 1.4e6;
 /** Milliseconds that a pass over one material may take before the picture is made smaller. */
 const PATIENCE = 40;
+/** Not smaller than this share of the full width, however slow. */
+const LEAST_QUALITY = 0.4;
+/** Milliseconds in a frame that first samples may take, of as many materials as have none. */
+const AT_ONCE = 100;
 
 const TITLES: Partial<Record<Light, string>> = { points: "three lights" };
 

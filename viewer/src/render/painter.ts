@@ -24,7 +24,7 @@ import type { Ingredient } from "../recipe";
 import type { Environment } from "./environment";
 import { compositeShader, environmentShader, MAX_TERMS, Pass, pointsShader } from "./shaders";
 import { type Orbit, type Shape, Stage } from "./stage";
-import type { TableOnCard, Tables } from "./tables";
+import { type TableOnCard, type Tables, whiteTable } from "./tables";
 
 /** Under an environment, and under points. */
 const TARGET_SAMPLES = [384, 128] as const;
@@ -48,13 +48,15 @@ export class Painter {
   private readonly renderer: WebGLRenderer;
   private target: WebGLArrayRenderTarget | null = null;
   private readonly layers = new Map<string, Layer>();
-  private underPoints = true;
+  private readonly white = whiteTable();
   private clock = 0;
   private buffered = -1;
   private shown: Shown = { recipe: [], other: [], names: [] };
   private readonly points: Pass;
   private readonly environment: Pass;
   private readonly composite: Pass;
+  /** That of the present light. */
+  private pass: Pass;
 
   constructor(
     canvas: HTMLCanvasElement,
@@ -106,6 +108,7 @@ export class Painter {
       },
       accumulate,
     );
+    this.pass = this.environment;
     this.composite = new Pass(
       compositeShader,
       {
@@ -149,10 +152,14 @@ export class Painter {
     this.buffered = -1;
   }
 
+  get hasSize(): boolean {
+    return this.target !== null;
+  }
+
   /** Look from elsewhere, at something else or in another light (none: the three points): all samples start over. */
   look(shape: Shape, orbit: Orbit, mesh: BufferGeometry | null, environment: Environment | null): void {
     this.stage.look(shape, orbit, mesh);
-    this.underPoints = environment === null;
+    this.pass = environment === null ? this.points : this.environment;
     if (environment !== null) {
       this.environment.uniforms.uEnv!.value = environment.picture;
       this.environment.uniforms.uEnvRows!.value = environment.rows;
@@ -167,41 +174,62 @@ export class Painter {
     return Math.min(...names.map((name) => this.layers.get(name)?.samples ?? 0));
   }
 
+  /** Whether the light is the three points, and not an environment: another shader. */
+  get underPoints(): boolean {
+    return this.pass === this.points;
+  }
+
   get targetSamples(): number {
     return TARGET_SAMPLES[this.underPoints ? 1 : 0];
   }
 
-  /** Add samples to up to `passes` layers, first to those that have the fewest; false when nothing is left to do. */
-  improve(names: readonly string[], passes: number, target = this.targetSamples): boolean {
+  /** Add up to so many samples, each to the layer that has the fewest; how many were added before all had enough. */
+  improve(names: readonly string[], passes: number, target = this.targetSamples): number {
     for (let pass = 0; pass < passes; pass++) {
       const next = this.neediest(names, target);
-      if (next === undefined) return false;
+      if (next === undefined) return pass;
       this.addSamples(next.layer, next.table);
     }
-    return true;
+    return passes;
   }
 
-  /** Milliseconds that one pass over a layer takes at the present size; the card is waited for. */
-  measure(name: string): number | null {
-    const next = this.neediest([name], Number.POSITIVE_INFINITY);
-    if (next === undefined) return null;
-    // The first pass compiles the shader and uploads the table.
-    const [, milliseconds] = [0, 1].map(() => {
-      const start = performance.now();
-      this.addSamples(next.layer, next.table);
-      const gl = this.renderer.getContext();
-      gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.FLOAT, new Float32Array(4));
-      return performance.now() - start;
-    });
-    return milliseconds ?? null;
+  /** Have the card compile what this light needs, drawing one pixel of a white table; the page is not kept waiting. */
+  async warmUp(): Promise<void> {
+    const passes = [this.stage.sphere, this.pass, this.composite];
+    await Promise.all(passes.map((pass) => pass.compile(this.renderer)));
+    // Some cards leave the better part to the first drawing, and do it for each way of blending anew.
+    const target = this.target!;
+    target.scissor.set(0, 0, 1, 1);
+    target.scissorTest = true;
+    const layer = this.scratch();
+    for (let sample = 0; sample < 2; sample++) this.addSamples(layer, this.white);
+    target.scissorTest = false;
+    await finished(this.renderer.getContext() as WebGL2RenderingContext);
+  }
+
+  /** Milliseconds that one pass over a layer takes at the present size and in this light; the card is waited for. */
+  measure(): number {
+    const gl = this.renderer.getContext();
+    const start = performance.now();
+    this.addSamples(this.scratch(), this.white);
+    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.FLOAT, new Float32Array(4));
+    return performance.now() - start;
+  }
+
+  /** A layer to try things on: what is there of pictures starts over. */
+  private scratch(): Layer {
+    for (const layer of this.layers.values()) layer.samples = 0;
+    this.buffered = -1;
+    return { index: 0, samples: 0, used: 0 };
   }
 
   /** Show a recipe, and another one right of `split`; while a material has no picture yet, what was shown before stays. */
   show(recipe: readonly Ingredient[], other: readonly Ingredient[], split: number, exposure: number): void {
     const next = { recipe, other, names: [...recipe, ...other].map(({ name }) => name) };
     if (recipe.length > 0 && this.samples(next.names) > 0) this.shown = next;
-    // All samples may just have started over: the last picture stays until each material has one again.
-    if (this.shown.names.length === 0 || this.samples(this.shown.names) === 0) return;
+    // All samples may just have started over: the last picture stays until each material has one again. Before the first
+    // picture an empty one is drawn all the same, for a card begins with the samples when the canvas is drawn on.
+    if (this.samples(this.shown.names) === 0) return;
     const { uniforms } = this.composite;
     uniforms.uCount!.value = this.fill(uniforms.uTerms!.value, this.shown.recipe);
     uniforms.uOtherCount!.value = this.fill(uniforms.uOtherTerms!.value, this.shown.other);
@@ -257,7 +285,7 @@ export class Painter {
       // The middle of the pixel first: the picture while orbiting does not shake.
       this.stage.draw(this.renderer, jitter(layer.samples, 0), jitter(layer.samples, 1));
     }
-    const pass = this.underPoints ? this.points : this.environment;
+    const { pass } = this;
     pass.uniforms.uTable!.value = texture;
     (pass.uniforms.uScale!.value as Vector3).copy(scale);
     if (!this.underPoints) {
@@ -278,4 +306,18 @@ const JITTER = [0x6a09e667, 0xbb67ae85] as const;
 /** The i-th point of a two-dimensional additive recurrence, shifted to start in the middle. */
 function jitter(i: number, dimension: 0 | 1): number {
   return ((Math.imul(i, JITTER[dimension]) + 0x80000000) >>> 0) / 4294967296;
+}
+
+/** Until the card has done what it was told. */
+function finished(gl: WebGL2RenderingContext): Promise<void> {
+  const sync = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+  gl.flush();
+  return new Promise((resolve) => {
+    const look = () => {
+      // Of a lost context there is nothing to wait for.
+      if (sync && gl.clientWaitSync(sync, 0, 0) === gl.TIMEOUT_EXPIRED) setTimeout(look, 4);
+      else resolve();
+    };
+    look();
+  });
 }

@@ -85,6 +85,11 @@ export class Pass {
     this.scene.add(mesh);
   }
 
+  /** Beside the page's work, where the browser can. */
+  async compile(renderer: WebGLRenderer): Promise<void> {
+    await renderer.compileAsync(this.scene, this.camera);
+  }
+
   draw(renderer: WebGLRenderer, target: WebGLRenderTarget | null, layer = 0): void {
     renderer.setRenderTarget(target, layer);
     renderer.render(this.scene, this.camera);

@@ -67,7 +67,7 @@ export class Stage {
     mesh: new Scene(),
   };
   private mesh: BufferGeometry | null = null;
-  private readonly sphere = new Pass(sphereShader, {
+  readonly sphere = new Pass(sphereShader, {
     uToWorld: { value: new Matrix4() },
     uEye: { value: this.camera.position },
     uSize: { value: this.size },

@@ -115,3 +115,13 @@ function toCard(table: Table): TableOnCard {
   const { mass, density } = lobe(table);
   return { table, texture, scale: new Vector3(...table.scale), lobe: chances(mass, density, mass.length) };
 }
+
+/** A white matte table of one sample, in the place of one that has not come. */
+export function whiteTable(): TableOnCard {
+  const axis = (angle: string, stop: number): Axis => ({ angle, size: 1, stop, power: 1, periodic: false });
+  const grid = [axis("theta_h", Math.PI / 2), axis("theta_d", Math.PI / 2), axis("phi_d", Math.PI)] as const;
+  return toCard({ name: "white", grid, halfs: new Uint16Array(4).fill(ONE), scale: [1, 1, 1] });
+}
+
+/** 1 as a half float. */
+const ONE = 0x3c00;
