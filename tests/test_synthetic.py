@@ -1,5 +1,7 @@
 """Synthetic materials: reproducible, different from one another, sound, and many-dimensional."""
 
+import sys
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
@@ -10,7 +12,7 @@ from halfway.errors import LibraryError
 from halfway.halfdiff import Grid
 from halfway.library import ProceduralLibrary, open_library
 from halfway.models import builtin, synthetic
-from halfway.models.synthetic import KINDS
+from halfway.models.synthetic import KINDS, SyntheticModel
 
 GRID = Grid.merl(12, 10, 8)
 
@@ -48,6 +50,14 @@ def test_parts_of_the_grid_are_the_samples_of_the_whole():
     brdf = synthetic(4)["coated-0003"]
     whole = brdf.sample_rows(GRID, slice(None))
     assert_array_equal(brdf.sample_rows(GRID, (slice(3, 5), slice(2, 7))), whole[:, 3:5, 2:7])
+
+
+def test_many_at_once_are_the_samples_of_each(monkeypatch):
+    models, part = list(synthetic(20).values()), (slice(3, 5), slice(2, 7))
+    each = [model.sample_rows(GRID, part) for model in models]
+    n_cells = each[0][0].size
+    monkeypatch.setattr(sys.modules[SyntheticModel.__module__], "CELLS_IN_CACHE", 7 * n_cells)
+    assert_array_equal(SyntheticModel.sample_many(models, GRID, part), np.stack(each, axis=1))
 
 
 def test_many_materials_have_many_dimensions():

@@ -3,16 +3,19 @@
 ``f_r(wi, wo)`` is in 1/sr and does not include the cosine. Directions are those of `halfway.halfdiff`.
 """
 
+import math
 from abc import ABC, abstractmethod
-from typing import ClassVar
+from collections.abc import Sequence
+from typing import Any, ClassVar
 
 import numpy as np
+from jaxtyping import Float32
 
 from .._types import Angle, Directions, Mask, Part, Table, Values
 from ..halfdiff import Grid, HalfDiff, cosines, to_half_diff
 
 # Float64 arrays of this many cells stay in a core's cache: the MERL grid goes two to three times faster than in one piece.
-_CELLS_IN_CACHE = 32768
+CELLS_IN_CACHE = 32768
 
 
 class Brdf(ABC):
@@ -34,6 +37,13 @@ class Brdf(ABC):
         wi, wo = (directions[rows] for directions in grid.directions())
         values = np.moveaxis(self.eval(wi, wo), -1, 0)
         return np.where(grid.mask()[rows], values, np.nan).astype(np.float32)
+
+    @classmethod
+    def sample_many(
+        cls, brdfs: Sequence[Any], grid: Grid, rows: Part
+    ) -> Float32[np.ndarray, "3 N *part"]:
+        """`sample_rows` of each of ``brdfs``, all of this class: a formula may compute them together."""
+        return np.stack([brdf.sample_rows(grid, rows) for brdf in brdfs], axis=1)
 
 
 class IsotropicModel(Brdf):
@@ -63,14 +73,19 @@ class IsotropicModel(Brdf):
         return values
 
     def sample_rows(self, grid: Grid, rows: Part) -> Table:
+        return self._sample_rows(grid, rows, (3,))
+
+    def _sample_rows(self, grid: Grid, rows: Part, shape: tuple[int, ...]) -> np.ndarray:
+        """`sample_rows` of a formula that gives ``shape`` values for a pair of directions."""
         lit = grid.mask()[rows]
-        samples = np.full((3, *lit.shape), np.nan, np.float32)
+        samples = np.full((*shape, *lit.shape), np.nan, np.float32)
         centres = _cut(grid.centres(), rows)
-        n_rows = max(1, _CELLS_IN_CACHE * len(lit) // max(lit.size, 1))
+        n_values = lit.size * math.prod(shape) // 3
+        n_rows = max(1, CELLS_IN_CACHE * len(lit) // max(n_values, 1))
         for start in range(0, len(lit), n_rows):
             part = slice(start, start + n_rows)
             values = self._at_centres(_cut(centres, part), lit[part])
-            np.copyto(samples[:, part], values, where=lit[part])
+            np.copyto(samples[(*(slice(None) for _ in shape), part)], values, where=lit[part])
         return samples
 
     def _at_centres(self, centres: HalfDiff, lit: Mask) -> np.ndarray:

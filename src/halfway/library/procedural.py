@@ -6,6 +6,7 @@ because that is what a BRDF computes cheaply, or parts of such rows where there 
 
 import hashlib
 from collections.abc import Mapping
+from itertools import groupby
 from pathlib import Path
 
 import numpy as np
@@ -67,8 +68,13 @@ class ProceduralLibrary(Library):
     def columns(self, columns: slice) -> Rows:
         part = self._parts[columns.start, columns.stop]
         block = np.empty((3, len(self), columns.stop - columns.start), np.float32)
-        for i, brdf in enumerate(self._brdfs):
-            block[:, i] = brdf.sample_rows(self.grid, part).reshape(3, -1)
+        start = 0
+        for kind, brdfs in groupby(self._brdfs, type):
+            some = list(brdfs)
+            stop = start + len(some)
+            samples = kind.sample_many(some, self.grid, part)
+            block[:, start:stop] = samples.reshape(3, len(some), -1)
+            start = stop
         return block
 
     def blocks(self) -> list[slice]:

@@ -19,13 +19,17 @@ BRDF Model for Physically-based Rendering", CGF 13(3), 1994 (F); R. Cook, K. Tor
 Computer Graphics", ACM TOG 1(1), 1982 (G).
 """
 
-from dataclasses import dataclass
-from typing import ClassVar
+from collections.abc import Sequence
+from dataclasses import dataclass, fields
+from typing import Any, ClassVar
 
 import numpy as np
+from jaxtyping import Float32
 
-from .._types import Angle
+from .._types import Angle, Part
 from ..brdf import IsotropicModel
+from ..brdf.brdf import CELLS_IN_CACHE
+from ..halfdiff import Grid
 from .grazing import GRAZING_DEGREES, held
 
 KINDS = ("matte", "plastic", "metal", "coated", "fabric", "satin")
@@ -40,7 +44,7 @@ class SyntheticModel(IsotropicModel):
     ----------
     diffuse, sheen : float64 arrays, shape (3,)
         rho, an albedo, and s in 1/sr; linear RGB.
-    retro, retro_width : float
+    retro, retro_width : float64 arrays, shape ()
         r, and w in radians.
     strength, alpha, gamma : float64 arrays, shape (2,)
         a_l, and the width (0 to 1) and exponent (above 1) of D of each lobe.
@@ -54,8 +58,8 @@ class SyntheticModel(IsotropicModel):
 
     diffuse: np.ndarray
     sheen: np.ndarray
-    retro: float
-    retro_width: float
+    retro: np.ndarray
+    retro_width: np.ndarray
     strength: np.ndarray
     alpha: np.ndarray
     gamma: np.ndarray
@@ -64,7 +68,7 @@ class SyntheticModel(IsotropicModel):
     irregular_D: np.ndarray
     irregular_F: np.ndarray
 
-    formula: ClassVar[str] = f"synthetic 1, held past {GRAZING_DEGREES:g} degrees"
+    formula: ClassVar[str] = f"synthetic 2, held past {GRAZING_DEGREES:g} degrees"
 
     def at(
         self, theta_h: Angle, theta_d: Angle, phi_d: Angle, cos_i: Angle, cos_o: Angle
@@ -78,7 +82,7 @@ class SyntheticModel(IsotropicModel):
         back = 1 + self.retro * np.exp(-((theta_d / self.retro_width) ** 2) / 2)
         lobes = [a * self.distribution(theta_h, i) * visible for i, a in enumerate(self.strength)]
         power = np.exp(_cosines(2 * theta_d, self.irregular_F))
-        channels = zip(self.diffuse, self.sheen, self.F0.T, strict=True)
+        channels = zip(self.diffuse, self.sheen, np.swapaxes(self.F0, 0, 1), strict=True)
         return np.stack(
             [
                 rho / np.pi * back
@@ -90,6 +94,17 @@ class SyntheticModel(IsotropicModel):
                 for rho, s, F0s in channels
             ]
         )
+
+    @classmethod
+    def sample_many(
+        cls, brdfs: Sequence[Any], grid: Grid, rows: Part
+    ) -> Float32[np.ndarray, "3 N *part"]:
+        step = max(1, CELLS_IN_CACHE // max(1, grid.mask()[rows].size))
+        sets = [brdfs[i : i + step] for i in range(0, len(brdfs), step)]
+        parts = [
+            _stacked(some, len(grid.axes))._sample_rows(grid, rows, (3, len(some))) for some in sets
+        ]
+        return np.concatenate(parts, axis=1)
 
     def distribution(self, theta_h: Angle, lobe: int) -> Angle:
         """D of one lobe, 1/sr."""
@@ -112,7 +127,17 @@ def synthetic(n: int, seed: int = 0) -> dict[str, SyntheticModel]:
     return {f"{KINDS[i % len(KINDS)]}-{i:0{digits}d}": _material(i, seed) for i in range(n)}
 
 
-def _irregular_gtr(theta_h: Angle, alpha: float, gamma: float, irregular: np.ndarray) -> Angle:
+def _stacked(models: Sequence[SyntheticModel], n_axes: int) -> SyntheticModel:
+    """One formula for all of ``models``: the last axes of its parameters are the models and ``n_axes`` of the grid."""
+    parameters = {
+        field.name: np.stack([np.asarray(getattr(m, field.name)) for m in models], axis=-1)
+        for field in fields(SyntheticModel)
+    }
+    ones = (1,) * n_axes
+    return SyntheticModel(**{k: p.reshape(*p.shape, *ones) for k, p in parameters.items()})
+
+
+def _irregular_gtr(theta_h: Angle, alpha: Angle, gamma: Angle, irregular: np.ndarray) -> Angle:
     x = np.sqrt(theta_h / (np.pi / 2))
     # sin^2 keeps its digits at the peak, where 1 + (a^2 - 1) cos^2 loses them.
     fall = (np.sin(theta_h) ** 2 + alpha**2 * np.cos(theta_h) ** 2) / alpha**2
@@ -120,8 +145,7 @@ def _irregular_gtr(theta_h: Angle, alpha: float, gamma: float, irregular: np.nda
 
 
 def _cosines(angle: Angle, coefficients: np.ndarray) -> Angle:
-    orders = np.arange(1, len(coefficients) + 1)
-    return np.tensordot(coefficients, np.cos(np.multiply.outer(orders, angle)), 1)
+    return np.asarray(sum(b * np.cos(j * angle) for j, b in enumerate(coefficients, 1)))
 
 
 def _material(i: int, seed: int) -> SyntheticModel:
@@ -154,8 +178,8 @@ def _material(i: int, seed: int) -> SyntheticModel:
     return SyntheticModel(
         diffuse=diffuse,
         sheen=is_fabric * rng.uniform(0, 0.3) * (0.5 + colour),
-        retro=float(rng.uniform(0, 0.2)) if kind in ("matte", "fabric") else 0.0,
-        retro_width=float(rng.uniform(0.1, 0.5)),
+        retro=np.array(rng.uniform(0, 0.2) if kind in ("matte", "fabric") else 0.0),
+        retro_width=np.array(rng.uniform(0.1, 0.5)),
         strength=np.array(lobes, np.float64),
         alpha=alpha,
         gamma=gamma,
