@@ -36,6 +36,8 @@ export interface Look {
 }
 
 const PIXELS = 26;
+/** Further than anything is away. */
+const FRONT = 1e3;
 
 export class Cloud {
   readonly camera = new PerspectiveCamera(32, 1, 0.1, 50);
@@ -86,6 +88,11 @@ export class Cloud {
         glslVersion: GLSL3,
         vertexShader: vertex,
         fragmentShader: fragment,
+        // Drawn from the back to the front, so that an edge lets through what is behind it.
+        transparent: true,
+        premultipliedAlpha: true,
+        depthTest: false,
+        depthWrite: false,
         uniforms: {
           uAtlas: { value: atlas(names, thumbnails, columns) },
           uColumns: { value: columns },
@@ -184,6 +191,7 @@ export class Cloud {
   }
 
   draw(): void {
+    this.sort();
     this.renderer.render(this.scene, this.camera);
   }
 
@@ -191,6 +199,17 @@ export class Cloud {
     this.controls.dispose();
     this.renderer.dispose();
     this.renderer.forceContextLoss();
+  }
+
+  /** From the back to the front; a stop, and what the pointer is on, is never hidden behind another. */
+  private sort(): void {
+    const places = this.placement?.points ?? [];
+    const looks = this.points.geometry.getAttribute("look");
+    const nearness = places.map(
+      (place, i) => -place.distanceTo(this.camera.position) + (looks.getX(i) > 0 ? FRONT : 0),
+    );
+    const order = Uint32Array.from(places.keys()).sort((a, b) => nearness[a]! - nearness[b]!);
+    this.points.geometry.setIndex(new BufferAttribute(order, 1));
   }
 
   /** Where a point is on the panel, in CSS pixels, and how far from the camera. */

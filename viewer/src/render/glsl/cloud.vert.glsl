@@ -13,8 +13,6 @@ flat out float vSize;
 void main() {
   vec4 at = modelViewMatrix * vec4(position, 1.0);
   gl_Position = projectionMatrix * at;
-  // A stop, and what the pointer is on, is never hidden behind another.
-  if (look.x > 0.0) gl_Position.z = -0.999 * gl_Position.w;
   vTile = tile;
   vLook = look;
   // Room for the ring.
