@@ -1,6 +1,7 @@
 """Libraries: what is stored comes back, what is damaged is refused, both kinds agree."""
 
 import json
+import os
 
 import numpy as np
 import pytest
@@ -216,15 +217,24 @@ def test_what_is_no_library_says_what_is(where, message):
         open_library(where)
 
 
+def never():
+    raise AssertionError
+
+
 def test_the_cache_gives_back_what_was_computed(tmp_path):
-    def once():
-        return {"a": np.arange(3.0)}
-
-    def never():
-        raise AssertionError
-
-    cached(tmp_path, "key", once)
+    cached(tmp_path, "key", lambda: {"a": np.arange(3.0)})
     np.testing.assert_array_equal(cached(tmp_path, "key", never)["a"], np.arange(3.0))
+
+
+def test_a_full_cache_forgets_what_was_used_longest_ago(tmp_path, monkeypatch):
+    n_bytes = 3 * 1000 * 8 + 2000
+    monkeypatch.setattr("halfway.library.cache.MOST_BYTES", n_bytes)
+    for second, key in enumerate("abc"):
+        cached(tmp_path, key, lambda: {"x": np.ones(1000)})
+        os.utime(tmp_path / f"{key}.npz", (second, second))
+    cached(tmp_path, "a", never)  # used again
+    cached(tmp_path, "d", lambda: {"x": np.ones(1000)})
+    assert {path.stem for path in tmp_path.iterdir()} == {"a", "c", "d"}
 
 
 def test_a_damaged_cache_is_replaced(tmp_path):

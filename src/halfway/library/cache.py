@@ -1,12 +1,20 @@
-"""Small dear results, kept in a folder under a key that changes when their input does."""
+"""Small dear results, kept in a folder under a key that changes when their input does.
 
+A key is never used again once its library has changed, so the folder is kept from growing: what was used longest ago goes.
+"""
+
+import os
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 
 import numpy as np
 
 from ..errors import OutputError
 from ..files import replacing
+
+MOST_BYTES = 2e9
+"""What the folder holds at most, beside the newest result."""
 
 
 def cached(
@@ -21,13 +29,31 @@ def cached(
     path = folder / f"{key}.npz"
     try:
         with path.open("rb") as file, np.load(file, allow_pickle=False) as archive:
-            return dict(archive)
+            arrays = dict(archive)
     except Exception:
         pass
+    else:
+        with suppress(OSError):
+            os.utime(path)  # used now
+        return arrays
     arrays = compute()
-    try:
+    with suppress(OutputError):
         with replacing(path) as temporary:
             np.savez(temporary, **arrays)  # pyright: ignore[reportArgumentType] (arrays by name)
-    except OutputError:
-        pass
+        _forget_oldest(folder, path)
     return arrays
+
+
+def _forget_oldest(folder: Path, newest: Path) -> None:
+    """Remove what was used longest ago from ``folder``, down to `MOST_BYTES`; others may be at it too."""
+    found = []
+    for path in folder.glob("*.npz"):
+        with suppress(OSError):
+            about = path.stat()
+            found.append((about.st_mtime_ns, about.st_size, path))
+    n_bytes = sum(size for _, size, _ in found)
+    for _, size, path in sorted(found):
+        if n_bytes > MOST_BYTES and path != newest:
+            n_bytes -= size
+            with suppress(OSError):
+                path.unlink()
