@@ -1,6 +1,7 @@
 """Places: what a path does, a URL does; against a real S3 server on this machine, over HTTP."""
 
 import json
+import pickle
 import sys
 
 import numpy as np
@@ -15,7 +16,7 @@ from halfway.errors import LibraryError, MissingExtraError, OutputError, RemoteE
 from halfway.export import write_route
 from halfway.files import replacing
 from halfway.formats import write_merl
-from halfway.library import verify_library
+from halfway.library import compact_library, verify_library
 from halfway.places import RemotePath, append_text, name_in, read_into, to_place
 from halfway.space import LinearSpace
 
@@ -106,6 +107,20 @@ def test_a_remote_library_is_the_local_one(bucket, folder, tmp_path):
     assert_array_equal(*mixes)
     assert verify_library(there).ok
     assert [p.name for p in tmp_path.glob(".*")] == []
+
+
+def test_a_remote_compact_library_is_the_local_one(bucket, folder, tmp_path):
+    library = build_library([folder], tmp_path / "x.brdflib").library
+    here = compact_library(library, tmp_path / "x.brdfc", n_components=3)
+    there = compact_library(library, bucket / "x.brdfc", n_components=3)
+    again = pickle.loads(pickle.dumps(open_library("s3://bucket/x.brdfc")))
+    assert (again.name, again.n_bytes) == ("s3://bucket/x.brdfc", here.n_bytes)
+    assert again.facts() == there.facts() == here.facts()
+    assert_array_equal(again.row(2), here.row(2))
+    with pytest.raises(
+        LibraryError, match=r"s3://bucket/none\.brdfc .*compact\.json cannot be read"
+    ):
+        open_library("s3://bucket/none.brdfc")
 
 
 def test_a_remote_library_is_replaced_and_its_old_tables_go(bucket, folder):

@@ -1,11 +1,11 @@
 """``halfway library compact``: a library as principal components, in one file."""
 
 from enum import StrEnum
-from pathlib import Path
 from typing import Annotated
 
 import typer
 
+from ..places import to_place
 from .console import cache_folder, engine, say, track
 from .options import Scheduler
 
@@ -24,7 +24,10 @@ class PrecisionName(StrEnum):
 def compact(
     lib: Annotated[str, typer.Argument(metavar="LIB")],
     output: Annotated[
-        Path, typer.Option("--output", "-o", metavar="FILE", help="The file to write, NAME.brdfc.")
+        str,
+        typer.Option(
+            "--output", "-o", metavar="FILE", help="The file to write, NAME.brdfc, or its URL."
+        ),
     ],
     components: Annotated[
         int, typer.Option("-k", help="Principal components; more lose less and take more room.")
@@ -58,7 +61,7 @@ def compact(
     with engine(scheduler) as where:
         made = compact_library(
             library,
-            output,
+            to_place(output),
             n_components=components,
             coding=coding,
             cache=cache_folder(),

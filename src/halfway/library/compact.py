@@ -30,7 +30,6 @@ import zipfile
 import zlib
 from dataclasses import asdict, dataclass
 from functools import cached_property
-from pathlib import Path
 from typing import Any, NamedTuple, get_args
 
 import numpy as np
@@ -40,6 +39,7 @@ from .._types import Rows, Table
 from ..errors import LibraryError
 from ..files import replacing
 from ..halfdiff import Axis, Grid
+from ..places import Place, absolute
 from .blocks import columns_per_block, ranges
 from .coding import Coding, Mapping, Precision
 from .library import Library, Origin, material_checksum
@@ -89,7 +89,7 @@ class CompactLibrary(Library):
         When the file is no compact library, one of a newer format, or damaged.
     """
 
-    def __init__(self, path: Path) -> None:
+    def __init__(self, path: Place) -> None:
         self.path = path
         self.header = _read_header(path)
         self.name = str(path)
@@ -106,7 +106,11 @@ class CompactLibrary(Library):
 
     @property
     def address(self) -> str:
-        return str(self.path.absolute())
+        return str(absolute(self.path))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """A library travels as its path."""
+        return CompactLibrary, (absolute(self.path),)
 
     @property
     def n_bytes(self) -> int:
@@ -162,13 +166,13 @@ class CompactLibrary(Library):
         return np.append(0, np.cumsum(self._mask))
 
 
-def is_compact(path: Path) -> bool:
+def is_compact(path: Place) -> bool:
     """Whether a zip is a compact library."""
-    with zipfile.ZipFile(path) as archive:
+    with path.open("rb") as file, zipfile.ZipFile(file) as archive:
         return HEADER in archive.namelist()
 
 
-def write_compact(path: Path, header: Header, arrays: Arrays) -> None:
+def write_compact(path: Place, header: Header, arrays: Arrays) -> None:
     """Write a compact library.
 
     Raises
@@ -199,7 +203,7 @@ def write_compact(path: Path, header: Header, arrays: Arrays) -> None:
                 member.write(little.data)
 
 
-def _read_header(path: Path) -> Header:
+def _read_header(path: Place) -> Header:
     document = _parsed(path)
     version = document.get("format")
     if version != FORMAT:
@@ -223,9 +227,9 @@ def _read_header(path: Path) -> Header:
         raise _damaged(path, f"{HEADER} lacks what a compact library needs ({error})") from None
 
 
-def _parsed(path: Path) -> dict[str, Any]:
+def _parsed(path: Place) -> dict[str, Any]:
     try:
-        with zipfile.ZipFile(path) as archive:
+        with path.open("rb") as file, zipfile.ZipFile(file) as archive:
             if archive.getinfo(HEADER).file_size > LARGEST_HEADER:
                 raise _damaged(path, f"its {HEADER} unpacks to more than {LARGEST_HEADER:,} bytes")
             document = json.loads(archive.read(HEADER))
@@ -236,11 +240,11 @@ def _parsed(path: Path) -> dict[str, Any]:
     return document
 
 
-def _read_arrays(path: Path, header: Header) -> Arrays:
+def _read_arrays(path: Place, header: Header) -> Arrays:
     n_bases, k = header.coding.n_bases, header.n_components
     n_rows = 3 * len(header.names) // n_bases
     try:
-        with zipfile.ZipFile(path) as archive:
+        with path.open("rb") as file, zipfile.ZipFile(file) as archive:
             cells = _member(archive, "cells", "u1", (math.ceil(header.grid.size / 8),))
             m = int(np.unpackbits(cells, count=header.grid.size).sum())
             n_starts = archive.getinfo("starts").file_size // 8
@@ -268,7 +272,7 @@ def _member(archive: zipfile.ZipFile, name: str, dtype: str, shape: tuple[int, .
     return np.frombuffer(archive.read(name), dtype).reshape(shape)
 
 
-def _damaged(path: Path, what: str) -> LibraryError:
+def _damaged(path: Place, what: str) -> LibraryError:
     return LibraryError(
         f"{path} is no sound compact library: {what}. `halfway library compact LIB -o {path}` makes one."
     )

@@ -17,6 +17,7 @@ from jaxtyping import Float32, Float64
 
 from ..brdf.metrics import comparison_cells, log_relative
 from ..errors import LibraryError
+from ..places import Place
 from ..tasks import THREADS, Engine, Track, run, silent
 from .blocks import ranges
 from .coding import Coding, Precision
@@ -31,7 +32,7 @@ N_COMPONENTS = 36
 
 def compact_library(
     library: Library,
-    path: Path,
+    path: Place,
     *,
     n_components: int = N_COMPONENTS,
     coding: Coding = Coding(),  # noqa: B008 (frozen)

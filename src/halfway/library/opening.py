@@ -3,7 +3,7 @@
 builtin:merl-abc        published fits that come with the package
 folder.brdflib          a stored library, here or at a URL such as s3://bucket/folder.brdflib
 merl_nbrdf.zip          an archive of neural fits, decoded when asked for
-library.brdfc           a compact library: principal components, reconstructed when asked for
+library.brdfc           a compact library (or its URL): principal components, reconstructed when asked for
 """
 
 import zipfile
@@ -13,6 +13,7 @@ from ..errors import LibraryError
 from ..formats import read_nbrdf_archive
 from ..models import BUILTIN, builtin
 from ..places import Place, RemotePath, to_place
+from .compact import SUFFIX as COMPACT_SUFFIX
 from .compact import CompactLibrary, is_compact
 from .library import Library, Origin, in_use
 from .procedural import ProceduralLibrary
@@ -35,7 +36,9 @@ def open_library(where: str | Place) -> Library:
         origin = Origin(models.description, models.source, models.licence)
         return ProceduralLibrary(str(where), models.models, origin=origin)
     path = to_place(where)
-    if isinstance(path, RemotePath) or path.is_dir():
+    if isinstance(path, RemotePath):
+        return CompactLibrary(path) if path.suffix == COMPACT_SUFFIX else StoredLibrary(path)
+    if path.is_dir():
         return StoredLibrary(path)
     if zipfile.is_zipfile(path):
         return CompactLibrary(path) if is_compact(path) else _open_archive(path)
