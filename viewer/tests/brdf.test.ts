@@ -1,3 +1,4 @@
+import { DataUtils } from "three";
 import { expect, test } from "vitest";
 
 import type { Axis } from "../src/api/schema";
@@ -8,6 +9,7 @@ import { type Direction, toHalfDiff } from "../src/brdf/halfdiff";
 import { inversion } from "../src/brdf/inversion";
 import { lobe } from "../src/brdf/lobe";
 import { evaluate, sample, type Table } from "../src/brdf/table";
+import { NODES } from "../src/panels/brdf/albedo";
 import { golden } from "./golden";
 
 const ROUNDING = 1e-9;
@@ -127,4 +129,46 @@ test("the directional albedo is Python's", () => {
       expect(Math.abs(x / values[i]![c]! - 1)).toBeLessThan(1e-6);
     });
   });
+});
+
+/** A lobe of the ABC model, (1 + B (1 - cos theta_h))^-C, that rises to grazing angles, on the angles of the MERL grid. */
+function lobeTable(b: number, c: number): Table {
+  const axis = (angle: string, size: number, power: number): Axis => ({
+    angle,
+    size,
+    stop: angle === "phi_d" ? Math.PI : Math.PI / 2,
+    power,
+    periodic: angle === "phi_d",
+  });
+  const grid = [axis("theta_h", 90, 2), axis("theta_d", 90, 1), axis("phi_d", 1, 1)] as const;
+  const halfs = new Uint16Array(4 * 90 * 90).fill(DataUtils.toHalfFloat(1));
+  for (let h = 0; h < 90; h++) {
+    for (let d = 0; d < 90; d++) {
+      const shape = (1 + 2 * b * Math.sin(toAngle(grid[0], h + 0.5) / 2) ** 2) ** -c;
+      const fresnel = 0.1 + 0.9 * (1 - Math.cos(toAngle(grid[1], d + 0.5))) ** 5;
+      halfs.fill(
+        DataUtils.toHalfFloat(0.001 + 900 * shape * fresnel),
+        4 * (90 * h + d),
+        4 * (90 * h + d) + 3,
+      );
+    }
+  }
+  return { name: "lobe", grid, halfs, scale: [1, 1, 1] };
+}
+
+// B and C of J. Low and others (SIGGRAPH 2012, as halfway.models has them).
+test.each([
+  ["chrome", 64661, 1.905],
+  ["gold-metallic-paint", 53.7, 1.512],
+])("the plotted albedo of a lobe like that of %s is near the converged integral", (_, b, c) => {
+  const table = lobeTable(b, c);
+  for (const degrees of [0, 30, 60, 80, 88]) {
+    const [plotted, python, converged] = ([NODES, [360, 60], [1440, 240]] as const).map(
+      ([nThetaH, nPhiH]) => directionalAlbedo(table, (degrees * Math.PI) / 180, nThetaH, nPhiH)[0],
+    );
+    // Measured: .07 % at 88 degrees, below .001 % elsewhere.
+    expect(Math.abs(plotted! / python! - 1)).toBeLessThan(0.001);
+    // Measured: .14 %, the same as Python's.
+    expect(Math.abs(plotted! / converged! - 1)).toBeLessThan(0.002);
+  }
 });

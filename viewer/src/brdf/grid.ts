@@ -7,15 +7,19 @@ import type { Axis } from "../api/schema";
 export function toPosition(axis: Axis, angle: number): number {
   const share = angle / axis.stop;
   if (axis.periodic) return ((axis.size * (share - Math.floor(share))) % axis.size) + 0;
-  return axis.size * Math.min(Math.max(share, 0), 1) ** (1 / axis.power);
+  const inside = Math.min(Math.max(share, 0), 1);
+  return axis.size * (axis.power === 1 ? inside : inside ** (1 / axis.power));
 }
 
 export function toAngle(axis: Axis, position: number): number {
   return axis.stop * (position / axis.size) ** axis.power;
 }
 
-/** Two cells and their weights around a position; periodic axes wrap, on the others the outer half cells clamp. */
-export function neighbours(axis: Axis, position: number): readonly [number, number, number] {
+/** Two cells, and how far a position is from the first sample to the second. */
+export type Neighbours = readonly [number, number, number];
+
+/** The cells around a position; periodic axes wrap, on the others the outer half cells clamp. */
+export function neighbours(axis: Axis, position: number): Neighbours {
   const lower = Math.floor(position - 0.5);
   const fraction = position - 0.5 - lower;
   const last = axis.size - 1;

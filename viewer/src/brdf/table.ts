@@ -2,7 +2,7 @@
 // Alpha is 1 where the sample is measured and 0 elsewhere, where RGB is 0 too.
 
 import type { Axis } from "../api/schema";
-import { neighbours, toPosition } from "./grid";
+import { type Neighbours, neighbours, toPosition } from "./grid";
 import { HALF } from "./half";
 import { type Direction, toHalfDiff } from "./halfdiff";
 
@@ -20,23 +20,36 @@ export function evaluate(table: Table, wi: Direction, wo: Direction): Rgb {
   if (wi[2] <= 0 || wo[2] <= 0) return [0, 0, 0];
   const { thetaH, thetaD, phiD } = toHalfDiff(wi, wo);
   const [axisH, axisD, axisP] = table.grid;
-  const h = neighbours(axisH, toPosition(axisH, thetaH));
-  const d = neighbours(axisD, toPosition(axisD, thetaD));
-  const p = neighbours(axisP, toPosition(axisP, phiD));
+  return interpolate(
+    table,
+    neighbours(axisH, toPosition(axisH, thetaH)),
+    neighbours(axisD, toPosition(axisD, thetaD)),
+    neighbours(axisP, toPosition(axisP, phiD)),
+  );
+}
+
+/** Between the neighbours on each axis. */
+export function interpolate(table: Table, h: Neighbours, d: Neighbours, p: Neighbours): Rgb {
+  const { halfs } = table;
+  const [, { size: nD }, { size: nP }] = table.grid;
   let red = 0;
   let green = 0;
   let blue = 0;
   let measured = 0;
-  for (let corner = 0; corner < 8; corner++) {
-    const i = corner & 1;
-    const j = (corner >> 1) & 1;
-    const k = corner >> 2;
-    const weight = side(h[2], i) * side(d[2], j) * side(p[2], k);
-    const at = 4 * ((h[i]! * axisD.size + d[j]!) * axisP.size + p[k]!);
-    red += weight * half(table, at);
-    green += weight * half(table, at + 1);
-    blue += weight * half(table, at + 2);
-    measured += weight * half(table, at + 3);
+  for (let i = 0; i < 2; i++) {
+    const ofH = i === 0 ? 1 - h[2] : h[2];
+    for (let j = 0; j < 2; j++) {
+      const ofHD = ofH * (j === 0 ? 1 - d[2] : d[2]);
+      const row = (h[i]! * nD + d[j]!) * nP;
+      for (let k = 0; k < 2; k++) {
+        const weight = ofHD * (k === 0 ? 1 - p[2] : p[2]);
+        const at = 4 * (row + p[k]!);
+        red += weight * HALF[halfs[at]!]!;
+        green += weight * HALF[halfs[at + 1]!]!;
+        blue += weight * HALF[halfs[at + 2]!]!;
+        measured += weight * HALF[halfs[at + 3]!]!;
+      }
+    }
   }
   if (measured === 0) return [0, 0, 0];
   const [r, g, b] = table.scale;
@@ -49,10 +62,6 @@ export function sample(table: Table, h: number, d: number, p: number): Rgb | nul
   if (half(table, at + 3) === 0) return null;
   const [r, g, b] = table.scale;
   return [r * half(table, at), g * half(table, at + 1), b * half(table, at + 2)];
-}
-
-function side(fraction: number, i: number): number {
-  return i === 0 ? 1 - fraction : fraction;
 }
 
 function half(table: Table, i: number): number {

@@ -12,8 +12,8 @@ import { slice } from "./slice";
 
 type View = "lobes" | "slice" | "albedo";
 
-/** Milliseconds of a frame that the samples may take. */
-const PATIENCE = 14;
+/** Milliseconds that the samples may take before the page has its turn. */
+const PATIENCE = 24;
 /** Milliseconds between drawings: the picture of the material comes first. */
 const BESIDE = 60;
 const ANGLES: Record<View, { readonly name: readonly [string, string]; readonly max: number } | null> = {
@@ -96,6 +96,12 @@ export function brdfPanel(context: Context): HTMLElement {
     update();
   };
   const update = paced(() => draw(), BESIDE);
+  let timer = 0;
+  /** Not at the pace of drawing: nothing is drawn before the last sample is there. */
+  const goOn = () => {
+    window.clearTimeout(timer);
+    timer = window.setTimeout(draw);
+  };
   const plots: Record<View, () => Plot> = {
     lobes: () => lobes(degrees.lobes, scales.lobes),
     slice: () => slice(grid, degrees.slice, scales.slice),
@@ -110,7 +116,7 @@ export function brdfPanel(context: Context): HTMLElement {
     // Until all is there the plot of before stays.
     if (share < 1) {
       reading.textContent = missing ? "loading tables" : `integrating, ${Math.round(100 * share)} %`;
-      if (!missing) update();
+      if (!missing) goOn();
       return;
     }
     const mixed = samples.mix(plot, recipe);
