@@ -36,6 +36,8 @@ export interface Look {
 }
 
 const PIXELS = 26;
+/** Materials whose spheres are that large. */
+const FEW = 200;
 /** Further than anything is away. */
 const FRONT = 1e3;
 
@@ -66,6 +68,8 @@ export class Cloud {
   );
   private readonly size = new Vector2(1, 1);
   private ratio = 1;
+  /** Spheres of many materials are smaller, so that as much is seen between them. */
+  private readonly crowd: number;
 
   constructor(
     canvas: HTMLCanvasElement,
@@ -81,6 +85,7 @@ export class Cloud {
     this.controls.minDistance = 0.6;
     this.controls.maxDistance = 14;
     this.controls.addEventListener("change", onMove);
+    this.crowd = Math.min(1, Math.cbrt(FEW / names.length));
     const columns = Math.ceil(Math.sqrt(names.length));
     this.points = new Points(
       new BufferGeometry(),
@@ -184,8 +189,8 @@ export class Cloud {
         ? 2 * Math.atan((Math.tan((16 * Math.PI) / 180) * height) / width) * (180 / Math.PI)
         : 32;
     this.camera.updateProjectionMatrix();
-    this.points.material.uniforms.uPixels!.value =
-      PIXELS * ratio * Math.min(1.5, Math.max(0.75, Math.min(width, height) / ratio / 480));
+    const room = Math.min(1.5, Math.max(0.75, Math.min(width, height) / ratio / 480));
+    this.points.material.uniforms.uPixels!.value = PIXELS * ratio * room * this.crowd;
     this.route.material.linewidth = 2.5 * ratio;
     this.route.material.resolution.copy(this.size);
   }
