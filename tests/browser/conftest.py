@@ -5,9 +5,11 @@ A console error fails the test: three.js logs a shader that does not compile and
 
 import shutil
 import threading
+from base64 import b64decode
 from collections.abc import Generator, Iterator
 from dataclasses import dataclass
 
+import numpy as np
 import pytest
 import uvicorn
 from playwright.sync_api import (
@@ -79,6 +81,18 @@ def browser() -> Iterator[Browser]:
         browser.close()
 
 
+# From the drawing buffer, not a screenshot: neither scaled nor composited.
+DRAWN = """() => {
+  const canvas = document.querySelector(".live");
+  const copy = new OffscreenCanvas(canvas.width, canvas.height).getContext("2d");
+  copy.drawImage(canvas, 0, 0);
+  const { data } = copy.getImageData(0, 0, canvas.width, canvas.height);
+  let text = "";
+  for (let i = 0; i < data.length; i += 32768) text += String.fromCharCode(...data.subarray(i, i + 32768));
+  return [canvas.height, canvas.width, btoa(text)];
+}"""
+
+
 @dataclass
 class Explorer:
     """A page of the explorer, and what a test does with it."""
@@ -104,6 +118,20 @@ class Explorer:
     def wait_until_settled(self) -> None:
         """Until the picture has all its pixels and samples."""
         self.page.wait_for_selector(".material[data-settled=true]", timeout=120_000)
+
+    def drawn(self) -> np.ndarray:
+        """The material's picture, (height, width, RGBA), 8-bit sRGB."""
+        height, width, data = self.page.evaluate(DRAWN)
+        return np.frombuffer(b64decode(data), np.uint8).reshape(height, width, 4)
+
+    def drawn_after(self, before: np.ndarray) -> np.ndarray:
+        """The picture, once it is another one than before."""
+        for _ in range(100):
+            now = self.drawn()
+            if now.shape != before.shape or (now != before).any():
+                return now
+            self.page.wait_for_timeout(50)
+        raise AssertionError("the picture stayed as it was")
 
     @property
     def recipe(self) -> list[str]:

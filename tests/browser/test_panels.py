@@ -12,6 +12,7 @@ from halfway.library import ProceduralLibrary
 from halfway.space import Recipe, mix
 
 PYRAMID = b"v 0 2 0\nv 1 0 1\nv 1 0 -1\nv -1 0 -1\nv -1 0 1\nf 1 2 3\nf 1 3 4\nf 1 4 5\nf 1 5 2\nf 5 4 3 2\n"
+SMALL = {"width": 460, "height": 560}
 DRAWN = """() => {
   const canvas = document.querySelector(".live");
   const copy = new OffscreenCanvas(canvas.width, canvas.height).getContext("2d");
@@ -68,6 +69,7 @@ def test_numbers_are_under_the_pointer_in_every_scale(explorer: Explorer, view: 
 
 
 def test_a_mesh_of_one_s_own_is_lit(explorer: Explorer) -> None:
+    explorer.page.set_viewport_size(SMALL)
     explorer.open("#space=linear&stops=teflon,chrome&t=0&light=points")
     explorer.wait_for_picture(1)
     with explorer.page.expect_file_chooser() as chooser:
@@ -85,17 +87,20 @@ def test_a_mesh_of_one_s_own_is_lit(explorer: Explorer) -> None:
 
 
 def test_a_stop_is_compared_with(explorer: Explorer) -> None:
-    explorer.open("#space=linear&stops=teflon,chrome&t=0.4&light=points&compare=stop:chrome")
-    explorer.wait_for_picture(1)
-    assert explorer.page.locator(".split").inner_text().split() == ["linear", "chrome"]
-    assert explorer.page.locator(".strip .names").inner_text() == ""
-    # The left end of the split shows the mix, its right the stop: nothing of it changes with t.
+    explorer.page.set_viewport_size(SMALL)
+    explorer.open("#space=linear&stops=teflon,chrome&t=0&light=points&compare=stop:chrome")
     explorer.wait_until_settled()
-    before = explorer.page.evaluate("document.querySelector('.live').toDataURL()")
+    assert explorer.page.locator(".split").inner_text().split() == ["linear", "chrome"]
+    beside = explorer.drawn()
+    explorer.page.locator("[name=compare]").select_option("")
+    teflon = explorer.drawn_after(beside)
     explorer.set_t(1)
-    explorer.page.wait_for_function(
-        "p => document.querySelector('.live').toDataURL() !== p", arg=before
-    )
+    chrome = explorer.drawn_after(teflon)
+    # The same samples, weighed by 0 and 1: not a byte differs.
+    middle = (beside.shape[1] + 1) // 2
+    np.testing.assert_array_equal(beside[:, :middle], teflon[:, :middle])
+    np.testing.assert_array_equal(beside[:, middle:], chrome[:, middle:])
+    assert (teflon != chrome).any(axis=-1).mean() > 0.2
 
 
 def test_a_place_outside_the_hull_is_marked_beside_the_nearest(explorer: Explorer) -> None:
@@ -189,6 +194,7 @@ def test_few_tables_are_asked_for_at_a_time(explorer: Explorer) -> None:
         if "/api/tables/" in request.url:
             asked.append(request.url)
 
+    explorer.page.set_viewport_size(SMALL)
     explorer.page.on("request", on_request)
     explorer.open(
         "#space=paper&pace=uniform&stops=cherry-235,chrome,teflon,pink-felt&t=0&light=points"
