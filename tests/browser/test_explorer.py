@@ -21,6 +21,7 @@ def test_the_first_picture_comes(explorer: Explorer) -> None:
 
 
 def test_moving_t_changes_the_recipe_and_not_the_samples(explorer: Explorer) -> None:
+    explorer.page.set_viewport_size({"width": 460, "height": 560})
     explorer.open(PAIR + "&t=0.5&light=points")
     explorer.wait_until_settled()
     before = picture(explorer)
@@ -122,6 +123,7 @@ def test_the_picture_is_taken_home(explorer: Explorer) -> None:
 
 
 def test_two_spaces_are_compared_in_one_picture(explorer: Explorer) -> None:
+    explorer.page.set_viewport_size({"width": 460, "height": 560})
     explorer.open("#space=linear&stops=teflon,chrome&t=0.4&light=points")
     explorer.wait_until_settled()
     alone = picture(explorer)

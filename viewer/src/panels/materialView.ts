@@ -35,7 +35,13 @@ export function materialView(context: Context): HTMLElement {
     {},
     canvas,
     el("div.overlay.top", {}, {}, el("h2", {}, {}, "Material"), el("div.group", {}, {}, note, home)),
-    el("div.overlay.bottom", {}, {}, shapeChoice(context), lightChoice(context), exposure(context)),
+    el(
+      "div.overlay.bottom",
+      {},
+      {},
+      shapeChoice(context),
+      el("div.group", {}, {}, lightChoice(context), exposure(context)),
+    ),
     splitHandle(context),
     el("div.bar", {}, {}, progress),
   );

@@ -27,7 +27,8 @@ export function recipePanel(context: Context): HTMLElement {
       if (items.some((item, i) => list.children[i] !== item) || list.children.length !== items.length) {
         list.replaceChildren(...items);
       }
-      note.textContent = recipe.length === 1 ? "one measured material" : `${recipe.length} materials`;
+      const many = recipe.length ? `${recipe.length} materials` : "";
+      note.textContent = recipe.length === 1 ? "one measured material" : many;
     },
   );
   return el(
@@ -72,6 +73,7 @@ function adjustment({ store, actions }: Context): HTMLElement {
       const has = view?.embeddings.some(({ name }) => name === BODY) ?? false;
       element.hidden = !has && place === null;
       label.hidden = !has;
+      input.disabled = recipe.length === 0;
       back.hidden = place === null;
       note.textContent = place === null || place.inside ? "" : "no mix is just there: this is the nearest";
       if (view && has && recipe.length && !input.matches(":focus")) {
@@ -173,5 +175,12 @@ function exports({ root, client, store }: Context): HTMLElement {
     },
     "Picture",
   );
-  return el("div.actions", {}, {}, ...tables, json, png);
+  const buttons = [...tables, json, png];
+  store.watch(
+    ({ recipe }) => recipe.length === 0,
+    (empty) => {
+      for (const button of buttons) button.disabled = empty;
+    },
+  );
+  return el("div.actions", {}, {}, ...buttons);
 }
