@@ -2,6 +2,7 @@
 
 import subprocess
 import sys
+import zipfile
 
 import numpy as np
 import pytest
@@ -190,6 +191,14 @@ def test_completing_reads_in_any_order_of_the_materials():
     assert_same_gram(gram.extended(many), Gram.of(many))
 
 
+def test_the_same_materials_in_another_order_are_the_same_products():
+    tables = random_tables(6, GRID)
+    turned = dict(reversed(tables.items()))
+    library = ProceduralLibrary("turned", turned, grid=GRID)
+    found = Gram.of(ProceduralLibrary("six", tables, grid=GRID)).extended(library)
+    assert_same_gram(found, Gram.of(library))
+
+
 def test_a_new_material_with_a_hole_makes_the_matrix_anew():
     tables = random_tables(6, GRID)
     holed = tables["material-5"].values.copy()
@@ -215,6 +224,17 @@ def test_a_library_that_grew_is_completed_from_the_cache(tmp_path):
     # Only a matrix that was completed keeps the origin and the old products to the last bit.
     old = unpack(Gram.of(grown(9)).products[0], 9)
     np.testing.assert_array_equal(unpack(found.products[0], 12)[:9, :9], old)
+
+
+def test_damaged_products_are_not_completed(tmp_path):
+    kept_gram(grown(9), tmp_path)
+    (path,) = tmp_path.iterdir()
+    with zipfile.ZipFile(path) as archive:
+        start = archive.getinfo("products.npy").header_offset
+    data = bytearray(path.read_bytes())
+    data[start + 400] ^= 16
+    path.write_bytes(data)
+    assert_same_gram(kept_gram(grown(12), tmp_path), Gram.of(grown(12)))
 
 
 def test_a_damaged_cache_is_made_anew(tmp_path):
@@ -266,6 +286,13 @@ def test_a_sketch_finds_the_leading_components(synthetic_300, n_passes, toleranc
     assert error.max() < tolerance
     assert_allclose(found.squared_norms, exact.squared_norms, rtol=1e-10)
     assert_allclose(found.centred_norms, exact.squared_residuals(0), rtol=1e-6)
+
+
+def test_no_more_joint_scores_are_given_than_there_are():
+    """Two components of each of three channels are six numbers a material."""
+    made = Pca.fit(grown(9), n_components=2)
+    assert made.joint_scores(7).shape == (9, 6)
+    assert_allclose(made.joint_scores(7)[:, :4], made.joint_scores(4), atol=1e-9)
 
 
 def test_a_sketch_of_fewer_dimensions_than_asked_for_ends_in_zeros():

@@ -87,7 +87,7 @@ class Gram:
         norms = np.empty((library.n_channels, len(library)))
         norms[:, known], norms[:, new] = self.squared_norms, total.norms
         products = [
-            pack(_joined(unpack(old, len(known)), rows.reshape(len(new), -1), known, new))
+            pack(_joined(unpack(old, len(known)), rows.reshape(len(new), len(library)), known, new))
             for old, rows in zip(self.products, total.products, strict=True)
         ]
         return Gram(

@@ -46,8 +46,11 @@ def _largest_part(library: Streamed, cache: Path) -> Gram | None:
             n_most, largest = len(theirs), path
     if largest is None:
         return None
-    with np.load(largest, allow_pickle=False) as archive:
-        return _to_gram(dict(archive))
+    try:
+        with largest.open("rb") as file, np.load(file, allow_pickle=False) as archive:
+            return _to_gram(dict(archive))
+    except Exception:  # its products are damaged, or it was just forgotten
+        return None
 
 
 def _materials(path: Path) -> list[str]:

@@ -118,12 +118,15 @@ class Pca:
         return self.eigenvectors[:, :, :k] * np.sqrt(self.eigenvalues[:, None, :k])
 
     def joint_scores(self, n_components: int) -> Float64[np.ndarray, "N k"]:
-        """Coordinates on the first components of all channels together, 1/sr: one analysis of the tables as a whole."""
+        """Coordinates on the first components of all channels together, 1/sr: one analysis of the tables as a whole.
+
+        As many as there are: at most N, and those of all channels.
+        """
         scores = np.concatenate(list(self.scores(self.eigenvalues.shape[1])), axis=1)
         with threadpool_limits(1, "blas"):
             if scores.shape[1] < len(scores):
                 # The smaller of the two products; a score on a component is what the scores have along it.
-                _, directions = _eigen(scores.T @ scores, n_components)
+                _, directions = _eigen(scores.T @ scores, min(n_components, scores.shape[1]))
                 joint = scores @ directions
             else:
                 eigenvalues, vectors = _eigen(scores @ scores.T, min(n_components, len(scores)))
