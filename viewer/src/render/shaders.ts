@@ -87,7 +87,10 @@ export class Pass {
 
   /** Beside the page's work, where the browser can. */
   async compile(renderer: WebGLRenderer): Promise<void> {
-    await renderer.compileAsync(this.scene, this.camera);
+    // three warns on the console where it cannot.
+    if (renderer.extensions.has("KHR_parallel_shader_compile"))
+      await renderer.compileAsync(this.scene, this.camera);
+    else renderer.compile(this.scene, this.camera);
   }
 
   draw(renderer: WebGLRenderer, target: WebGLRenderTarget | null, layer = 0): void {
