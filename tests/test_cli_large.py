@@ -2,6 +2,7 @@
 
 import json
 import sys
+from dataclasses import replace
 
 import pytest
 
@@ -9,6 +10,8 @@ from halfway.cli import arguments
 from halfway.cli import main as halfway
 from halfway.errors import HalfwayError
 from halfway.halfdiff import Grid
+from halfway.library import CompactLibrary
+from halfway.library.compact import write_compact
 
 
 @pytest.fixture
@@ -51,6 +54,17 @@ def test_a_library_is_built_on_a_grid_added_to_and_kept_compact(run, tmp_path):
     assert "reconstructed from 9 principal components" in out
     code, out, _ = run("route", "a.brdfc", "chrome", "metal-0002", "-n", "3", "--json")
     assert len(json.loads(out)["recipes"]) == 3
+
+
+def test_a_compact_library_whose_making_was_stopped_says_so(run, tmp_path):
+    """Killed after the file took its place and before its error was written."""
+    run("library", "build", "builtin:synthetic-5", "--grid", "4x3x2", "-o", "a.brdflib")
+    run("library", "compact", "a.brdflib", "-k", "3", "-o", "a.brdfc")
+    made = CompactLibrary(tmp_path / "a.brdfc")
+    write_compact(made.path, replace(made.header, error={}), made._arrays)
+    code, out, err = run("library", "info", "a.brdfc")
+    assert (code, err) == (0, "")
+    assert "error: not measured, as its making was stopped: make it again" in out
 
 
 def test_a_dry_run_says_what_it_takes_and_writes_nothing(run, tmp_path):

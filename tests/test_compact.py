@@ -1,6 +1,8 @@
 """Compact libraries: what is kept comes back, what is lost is stated, what is damaged is refused."""
 
 import json
+import pickle
+import time
 import zipfile
 
 import numpy as np
@@ -136,9 +138,13 @@ def test_a_cell_unmeasured_in_one_channel_of_one_material_is_unmeasured_in_all(t
         assert (np.isnan(kept.brdf(name).values) == ~GRID.mask()).sum() == 3 * (GRID.size - 1)
 
 
-def test_the_same_library_gives_the_same_bytes(library, compact, tmp_path):
+def test_the_same_library_gives_the_same_bytes(library, compact, tmp_path, monkeypatch):
+    """On any day."""
+    tomorrow = time.time() + 86400
+    monkeypatch.setattr("time.time", lambda: tomorrow)
     again = compact_library(library, tmp_path / "again.brdfc", n_components=9)
     assert again.checksum == compact.checksum
+    assert again.path.read_bytes() == compact.path.read_bytes()
 
 
 @pytest.mark.parametrize("k", [0, 36])
@@ -176,6 +182,11 @@ def header(**changes):
         (("compact.json", header(mapping="cube")), "lacks what a compact library needs"),
         (("compact.json", header(n_components=8)), "steps has .* bytes where .* are expected"),
         (("compact.json", header(materials=["a"])), "scores has .* bytes where"),
+        (("compact.json", header(materials=[])), "0 materials have 0 names"),
+        (("compact.json", header(materials=["a"] * 12)), "12 materials have 1 names"),
+        (("compact.json", header(materials=list("abcdefghijkl"))), "its numbers have checksum"),
+        (("compact.json", header(mapping="linear")), "its numbers have checksum"),
+        (("scores", lambda data: bytes(len(data))), "its numbers have checksum"),
         (("cells", lambda data: data[:-1]), "cells has .* bytes where .* are expected"),
         (("starts", lambda data: data[8:]), "starts do not ascend"),
         (("mean", lambda data: data[:-4]), "mean has .* bytes where .* are expected"),
@@ -198,3 +209,42 @@ def test_a_flipped_bit_is_found(compact, tmp_path):
     path.write_bytes(data)
     with pytest.raises(LibraryError, match="is no sound compact library"):
         CompactLibrary(path).row(0)
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_whatever_is_damaged_is_one_line_or_the_same(compact, tmp_path, seed):
+    """A bit of the directory may name a way to compress that nobody has."""
+    generator = np.random.default_rng(seed)
+    path = tmp_path / "damaged.brdfc"
+    data = bytearray(compact.path.read_bytes())
+    data[generator.integers(len(data) - 600, len(data))] ^= 1 << generator.integers(8)
+    path.write_bytes(data[: generator.integers(len(data))] if seed % 4 == 0 else data)
+    said, row = "", None
+    try:
+        row = open_library(path).row(0)
+    except LibraryError as error:
+        said = str(error)
+    if row is None:
+        assert said.startswith(f"{path} is no sound compact library")
+        assert "\n" not in said
+    else:
+        np.testing.assert_array_equal(row, compact.row(0))
+
+
+def test_a_file_that_changes_under_a_task_is_told(library, tmp_path):
+    made = compact_library(library, tmp_path / "a.brdfc", n_components=3)
+    travels = pickle.dumps(made)
+    compact_library(library, tmp_path / "a.brdfc", n_components=4)
+    with pytest.raises(LibraryError, match=r"has checksum \w{12} here and \w{12} where the work"):
+        pickle.loads(travels)
+
+
+def test_a_file_is_not_written_over_what_it_is_made_of(compact):
+    with pytest.raises(LibraryError, match=r"is the library itself, .*: expected another file"):
+        compact_library(compact, compact.path, n_components=2)
+
+
+def test_a_name_that_would_not_be_opened_is_refused(library, tmp_path):
+    with pytest.raises(LibraryError, match=r"expected NAME\.brdfc, by which it is opened"):
+        compact_library(library, tmp_path / "a.xyz", n_components=2)
+    assert list(tmp_path.iterdir()) == []

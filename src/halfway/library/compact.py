@@ -24,6 +24,7 @@ What is read is a reconstruction, not the measurement. It is never negative, but
 promised of it, and a mix of a compact library is a mix of reconstructions.
 """
 
+import hashlib
 import json
 import math
 import zipfile
@@ -75,7 +76,7 @@ class Header:
     source_checksum: str
     """Of the library that it was made of."""
     checksum: str
-    """Of the arrays."""
+    """Of the names, the grid, the coding and the arrays: `arrays_checksum`."""
     error: dict[str, float]
     """What reading loses, by measure; empty where it was not measured."""
 
@@ -110,7 +111,7 @@ class CompactLibrary(Library):
 
     def __reduce__(self) -> tuple[Any, ...]:
         """A library travels as its path."""
-        return CompactLibrary, (absolute(self.path),)
+        return _opened, (absolute(self.path), self.checksum)
 
     @property
     def n_bytes(self) -> int:
@@ -154,7 +155,14 @@ class CompactLibrary(Library):
 
     @cached_property
     def _arrays(self) -> Arrays:
-        return _read_arrays(self.path, self.header)
+        arrays, header = _read_arrays(self.path, self.header), self.header
+        found = arrays_checksum(header.names, header.grid, header.coding, arrays)
+        if found != header.checksum:
+            raise _damaged(
+                self.path,
+                f"its numbers have checksum {found[:12]} and {HEADER} says {header.checksum[:12]}",
+            )
+        return arrays
 
     @cached_property
     def _mask(self) -> np.ndarray:
@@ -167,9 +175,22 @@ class CompactLibrary(Library):
 
 
 def is_compact(path: Place) -> bool:
-    """Whether a zip is a compact library."""
-    with path.open("rb") as file, zipfile.ZipFile(file) as archive:
-        return HEADER in archive.namelist()
+    """Whether a file is a compact library, or is called like one."""
+    if path.suffix == SUFFIX:
+        return True
+    try:
+        with path.open("rb") as file, zipfile.ZipFile(file) as archive:
+            return HEADER in archive.namelist()
+    except (zipfile.BadZipFile, NotImplementedError):
+        return False
+
+
+def arrays_checksum(names: tuple[str, ...], grid: Grid, coding: Coding, arrays: Arrays) -> str:
+    """The checksum of a compact library."""
+    digest = hashlib.sha256(repr((names, grid, coding)).encode())
+    for array in arrays:
+        digest.update(np.ascontiguousarray(array).data)
+    return digest.hexdigest()
 
 
 def write_compact(path: Place, header: Header, arrays: Arrays) -> None:
@@ -196,7 +217,9 @@ def write_compact(path: Place, header: Header, arrays: Arrays) -> None:
         replacing(path) as temporary,
         zipfile.ZipFile(temporary, "w", zipfile.ZIP_DEFLATED, compresslevel=6) as archive,
     ):
-        archive.writestr(HEADER, json.dumps(document, indent=1))
+        # Opened like the others, so that it bears no date: the same library is the same bytes.
+        with archive.open(HEADER, "w") as member:
+            member.write(json.dumps(document, indent=1).encode())
         for name, array in arrays._asdict().items():
             little = np.ascontiguousarray(array, array.dtype.newbyteorder("<"))
             with archive.open(name, "w", force_zip64=True) as member:
@@ -212,10 +235,13 @@ def _read_header(path: Place) -> Header:
             "upgrade halfway, or make it again."
         )
     try:
+        names = tuple(map(str, document["materials"]))
+        if not names or len(set(names)) < len(names):
+            raise ValueError(f"{len(names)} materials have {len(set(names))} names")
         coding = _CODINGS[document["mapping"], document["shared"], document["precision"]]
         return Header(
             Grid(tuple(Axis(**axis) for axis in document["grid"])),
-            tuple(map(str, document["materials"])),
+            names,
             Origin(**document["origin"]),
             coding,
             int(document["n_components"]),
@@ -233,7 +259,7 @@ def _parsed(path: Place) -> dict[str, Any]:
             if archive.getinfo(HEADER).file_size > LARGEST_HEADER:
                 raise _damaged(path, f"its {HEADER} unpacks to more than {LARGEST_HEADER:,} bytes")
             document = json.loads(archive.read(HEADER))
-    except (OSError, KeyError, ValueError, RecursionError, zipfile.BadZipFile) as error:
+    except (*_DAMAGE, RecursionError) as error:
         raise _damaged(path, f"{HEADER} cannot be read ({error})") from None
     if not isinstance(document, dict):
         raise _damaged(path, f"{HEADER} is no object")
@@ -259,7 +285,7 @@ def _read_arrays(path: Place, header: Header) -> Arrays:
                 _member(archive, "components", _DTYPES[header.coding.precision], (n_bases, k, m)),
                 _member(archive, "scores", "<f4", (n_bases, n_rows, k)),
             )
-    except (OSError, KeyError, ValueError, EOFError, zipfile.BadZipFile, zlib.error) as error:
+    except _DAMAGE as error:
         raise _damaged(path, str(error)) from None
 
 
@@ -278,6 +304,22 @@ def _damaged(path: Place, what: str) -> LibraryError:
     )
 
 
+def _opened(path: Place, checksum: str) -> CompactLibrary:
+    """The library that another process means."""
+    library = CompactLibrary(path)
+    if library.checksum != checksum:
+        raise LibraryError(
+            f"{path} has checksum {library.checksum[:12]} here and {checksum[:12]} where the work began: it was made "
+            "again, or is another file on this machine. Run the same command again."
+        )
+    return library
+
+
+_DAMAGE = (
+    *(OSError, KeyError, ValueError, EOFError, NotImplementedError),
+    *(zipfile.BadZipFile, zlib.error),
+)
+"""What reading a damaged zip may raise: a bit of its directory names a way to compress that is not supported."""
 _DTYPES: dict[Precision, str] = {"int8": "i1", "float16": "<f2", "float32": "<f4"}
 _CODINGS = {
     (mapping, shared, precision): Coding(mapping, shared, precision)

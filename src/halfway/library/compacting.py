@@ -17,11 +17,11 @@ from jaxtyping import Float32, Float64
 
 from ..brdf.metrics import comparison_cells, log_relative
 from ..errors import LibraryError
-from ..places import Place
+from ..places import Place, absolute
 from ..tasks import THREADS, Engine, Track, run, silent
 from .blocks import ranges
 from .coding import Coding, Precision
-from .compact import Arrays, CompactLibrary, Header, write_compact
+from .compact import SUFFIX, Arrays, CompactLibrary, Header, arrays_checksum, write_compact
 from .library import Library, Streamed
 from .pca import Pca
 
@@ -45,10 +45,19 @@ def compact_library(
     Raises
     ------
     LibraryError
-        With fewer than one component, or no fewer than there are rows; or no cell measured in every material.
+        With fewer than one component, or no fewer than there are rows; or no cell measured in every material; or where
+        ``path`` is not called NAME.brdfc, or is that of the library itself.
     OutputError
         When ``path`` cannot be written.
     """
+    if path.suffix != SUFFIX:
+        raise LibraryError(
+            f"{path} is no name of a compact library: expected NAME{SUFFIX}, by which it is opened. Name it so."
+        )
+    if library.address == str(absolute(path)):
+        raise LibraryError(
+            f"{path} is the library itself, which is read until the last: expected another file. Choose another name."
+        )
     rows = CodedRows(library, coding)
     if not 1 <= n_components < len(rows):
         raise LibraryError(
@@ -57,9 +66,6 @@ def compact_library(
         )
     pca = Pca.fit(rows, n_components=n_components, cache=cache, track=track, engine=engine)
     arrays = _arrays(rows, pca, track, engine)
-    digest = hashlib.sha256(repr((library.names, library.grid, coding)).encode())
-    for array in arrays:
-        digest.update(np.ascontiguousarray(array).data)
     header = Header(
         library.grid,
         library.names,
@@ -67,7 +73,7 @@ def compact_library(
         coding,
         n_components,
         library.checksum,
-        digest.hexdigest(),
+        arrays_checksum(library.names, library.grid, coding, arrays),
         {},
     )
     write_compact(path, header, arrays)

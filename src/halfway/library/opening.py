@@ -40,8 +40,10 @@ def open_library(where: str | Place) -> Library:
         return CompactLibrary(path) if path.suffix == COMPACT_SUFFIX else StoredLibrary(path)
     if path.is_dir():
         return StoredLibrary(path)
+    if path.is_file() and is_compact(path):
+        return CompactLibrary(path)
     if zipfile.is_zipfile(path):
-        return CompactLibrary(path) if is_compact(path) else _open_archive(path)
+        return _open_archive(path)
     if path.exists():
         raise LibraryError(
             f"{path} is one file, not a library: `halfway library build {path} OTHER... -o NAME.brdflib` "
