@@ -164,6 +164,11 @@ def test_what_the_old_files_take_counts_as_free(tmp_path, monkeypatch):
         ('{"format": 1, "made": {"by": "test"}, "files": {"../../x": {}}}', "the name '../../x'"),
         ('{"format": 1, "made": {"by": "test"}, "files": {"/etc/x": {}}}', "the name '/etc/x'"),
         ('{"format": 1, "made": {"by": "test"}, "files": {"x": {"of": 1}}}', "'bytes'"),
+        (
+            '{"format": 1, "made": {"by": "test"}, "files": {"x": {"of": 1, "bytes": 1e400}}}',
+            "infinity",
+        ),
+        ("[" * 100_000, "recursion"),
     ],
 )
 def test_a_manifest_that_is_none_gets_one_line(tmp_path, text, reason):
@@ -182,3 +187,5 @@ def test_a_folder_without_a_manifest_gets_one_line(tmp_path):
         FormatError, match=r"has no manifest.json: expected a folder that `halfway route`"
     ):
         verify(tmp_path)
+    with pytest.raises(FormatError, match=r"there is no folder .*nowhere: expected one that"):
+        verify(tmp_path / "nowhere")

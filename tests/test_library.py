@@ -134,9 +134,9 @@ def test_building_again_replaces_the_library(folder, stored):
     assert sorted(p.name for p in stored.path.parent.iterdir()) == ["measured", "tiny.brdflib"]
 
 
-def name_tables(library, name):
+def describe(library, **changes):
     path = library / "library.json"
-    path.write_text(json.dumps(json.loads(path.read_text()) | {"tables": name}))
+    path.write_text(json.dumps(json.loads(path.read_text()) | changes))
 
 
 def tables(library):
@@ -151,9 +151,17 @@ def tables(library):
         (lambda p: (p / "library.json").write_text("{"), "library.json cannot be read"),
         (lambda p: (p / "library.json").write_text('{"format": 1}'), "lacks what a library needs"),
         (
-            lambda p: name_tables(p, "../tables-0.npy"),
+            lambda p: describe(p, tables="../tables-0.npy"),
             r"lacks what a library needs \(tables '\.\./tables-0\.npy'\)",
         ),
+        (lambda p: describe(p, origin={"licence": 5}), r"needs \(licence is 5, and no text\)"),
+        (
+            lambda p: describe(
+                p, materials=[{"name": "a", "source": "", "source_sha256": "", "sha256": None}]
+            ),
+            r"needs \(sha256 is None, and no text\)",
+        ),
+        (lambda p: (p / "library.json").write_text("[" * 100_000), "library.json cannot be read"),
         (lambda p: tables(p).unlink(), r"tables-.*\.npy cannot be read \(No such file"),
         (lambda p: tables(p).write_bytes(b"\x93NUMPY"), r"tables-.*\.npy does not hold"),
         (

@@ -29,6 +29,8 @@ from ..tasks import Track, run, silent
 FORMAT = 1
 MANIFEST = "manifest.json"
 JOURNAL = "manifest.jsonl"
+_NO_MANIFEST = (ValueError, KeyError, TypeError, AttributeError, OverflowError, RecursionError)
+"""What parsing anything else may raise: numbers beyond all bounds, and lists in lists in lists, too."""
 
 
 class Checksum(NamedTuple):
@@ -81,7 +83,7 @@ class Manifest:
                 return parse(path.read_text())
             except (FileNotFoundError, NotADirectoryError):
                 continue
-            except (ValueError, KeyError, TypeError, AttributeError) as error:
+            except _NO_MANIFEST as error:
                 raise FormatError(
                     f"{path} is no manifest of halfway, or of a newer version ({error}): "
                     f"expected format {FORMAT}. Choose another folder, or move this file away."
@@ -137,8 +139,12 @@ def verify(folder: Place, *, track: Track = silent) -> Verdict:
     Raises
     ------
     FormatError
-        When the folder has no manifest.
+        When there is no folder, or it has no manifest.
     """
+    if not folder.exists():
+        raise FormatError(
+            f"there is no folder {folder}: expected one that `halfway route` or `halfway render` wrote. See where you are."
+        )
     manifest = Manifest.read(folder)
     if manifest is None:
         raise FormatError(

@@ -43,7 +43,7 @@ from ..halfdiff import Axis, Grid
 from ..places import Place, absolute
 from .blocks import columns_per_block, ranges
 from .coding import Coding, Mapping, Precision
-from .library import Library, Origin, material_checksum
+from .library import Library, Origin, material_checksum, texts
 
 FORMAT = 1
 SUFFIX = ".brdfc"
@@ -242,7 +242,7 @@ def _read_header(path: Place) -> Header:
         return Header(
             Grid(tuple(Axis(**axis) for axis in document["grid"])),
             names,
-            Origin(**document["origin"]),
+            Origin(**texts(document["origin"])),
             coding,
             int(document["n_components"]),
             str(document["source_checksum"]),

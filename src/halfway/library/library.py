@@ -12,6 +12,7 @@ There are two kinds behind this interface: *stored* on disk, and *procedural*, c
 
 import hashlib
 from abc import ABC, abstractmethod
+from collections.abc import Mapping
 from dataclasses import dataclass
 from difflib import get_close_matches
 from itertools import count
@@ -116,6 +117,20 @@ class Library(Streamed):
         """The table of the material called ``name``."""
         values = self.row(self.index(name)).reshape(3, *self.grid.shape)
         return TabularBrdf(values, self.grid, name=name)
+
+
+def texts(fields: Mapping[str, Any]) -> Mapping[str, str]:
+    """The fields of an object in a file, which are all text.
+
+    Raises
+    ------
+    TypeError
+        When one is not.
+    """
+    for key, value in fields.items():
+        if not isinstance(value, str):
+            raise TypeError(f"{key} is {value!r}, and no text")
+    return fields
 
 
 def in_use(name: str) -> Library | None:

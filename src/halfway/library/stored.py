@@ -31,7 +31,7 @@ from ..errors import LibraryError
 from ..halfdiff import Axis, Grid
 from ..places import Place, RemotePath, absolute, read_into
 from .blocks import columns_per_block, ranges
-from .library import Library, Origin, material_checksum
+from .library import Library, Origin, material_checksum, texts
 
 FORMAT = 1
 SUFFIX = ".brdflib"
@@ -76,11 +76,11 @@ class StoredLibrary(Library):
         path = self.path
         try:
             self.grid = Grid(tuple(Axis(**axis) for axis in description["grid"]))
-            self.entries = tuple(Entry(**entry) for entry in description["materials"])
-            self.origin = Origin(**description["origin"])
+            self.entries = tuple(Entry(**texts(entry)) for entry in description["materials"])
+            self.origin = Origin(**texts(description["origin"]))
             self.tables = path / _tables_name(description["tables"])
             """Its file of samples."""
-        except (KeyError, TypeError, ValueError) as error:
+        except (KeyError, TypeError, ValueError, AttributeError) as error:
             raise LibraryError(
                 f"{path / DESCRIPTION} lacks what a library needs ({error}): build the library again."
             ) from None
@@ -200,7 +200,7 @@ def _read_description(path: Place) -> dict[str, Any]:
             f"{path} is no library: there is no {DESCRIPTION} in it. "
             f"`halfway library build {path} -o NAME{SUFFIX}` makes one of a folder of BRDF files."
         ) from None
-    except (OSError, ValueError, KeyError, TypeError) as error:
+    except (OSError, ValueError, KeyError, TypeError, RecursionError) as error:
         raise LibraryError(
             f"{path / 'library.json'} cannot be read ({error}): build the library again."
         ) from None
