@@ -1,6 +1,8 @@
 """Large and compact libraries on the command line."""
 
 import json
+import os
+import subprocess
 import sys
 from dataclasses import replace
 
@@ -9,8 +11,9 @@ import pytest
 from halfway.cli import arguments
 from halfway.cli import main as halfway
 from halfway.errors import HalfwayError
+from halfway.formats import write_merl
 from halfway.halfdiff import Grid
-from halfway.library import CompactLibrary
+from halfway.library import CompactLibrary, build_library
 from halfway.library.compact import write_compact
 
 
@@ -73,6 +76,36 @@ def test_a_dry_run_says_what_it_takes_and_writes_nothing(run, tmp_path):
     assert (code, err) == (0, "")
     assert out.startswith("5 materials x 24 cells: exact, one pass\n1 block of 24 columns")
     assert [path.name for path in tmp_path.iterdir()] == ["a.brdflib"]
+    code, out, err = run("report", "a.brdflib", "--dry-run", "--json")
+    assert json.loads(out)["n_materials"] == 5
+
+
+def test_a_compact_library_is_verified_and_one_that_is_computed_cannot_be(run, tmp_path):
+    run("library", "build", "builtin:synthetic-5", "--grid", "4x3x2", "-o", "a.brdflib")
+    run("library", "compact", "a.brdflib", "-k", "3", "-o", "a.brdfc")
+    assert run("library", "verify", "a.brdfc") == (0, "", "a.brdfc: 5 of 5 materials right.\n")
+    path = tmp_path / "a.brdfc"
+    path.write_bytes(path.read_bytes()[:-40])
+    code, _, err = run("library", "verify", "a.brdfc")
+    assert (code, "a.brdfc is no sound compact library" in err) == (1, True)
+    code, _, err = run("library", "verify", "builtin:synthetic-5")
+    assert (code, "is computed when asked for" in err) == (1, True)
+
+
+def test_a_misspelt_name_is_answered_by_a_command_that_works_from_anywhere(run, tmp_path):
+    run("library", "build", "builtin:synthetic-5", "--grid", "4x3x2", "-o", "a b.brdflib")
+    code, _, err = run("route", "a b.brdflib", "nothing\nlike it", "matte-0000")
+    assert (code, err.count("\n")) == (1, 1)
+    assert f"`halfway library info '{tmp_path / 'a b.brdflib'}'` lists them." in err
+
+
+def test_a_terminal_without_a_letter_gets_its_number(tmp_path, small_library):
+    write_merl(tmp_path / "gold \u2600.binary", small_library.brdf(small_library.names[0]))
+    build_library([tmp_path], tmp_path / "a.brdflib")
+    command = [sys.executable, "-m", "halfway", "library", "info", str(tmp_path / "a.brdflib")]
+    environment = os.environ | {"PYTHONIOENCODING": "ascii"}
+    found = subprocess.run(command, env=environment, capture_output=True, text=True, check=True)
+    assert "gold \\u2600" in found.stdout
 
 
 @pytest.mark.parametrize(

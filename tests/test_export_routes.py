@@ -136,7 +136,7 @@ def test_too_little_space_is_said_before_anything_is_written(
 ):
     monkeypatch.setattr("shutil.disk_usage", lambda _: type("usage", (), {"free": 1000})())
     with pytest.raises(
-        OutputError, match=r"a batch of 4 files takes 0.00 GB and .* has 0.00 GB free"
+        OutputError, match=r"a batch of 4 files takes \d\.\d MB and .* has 0\.0 MB free"
     ):
         write_route(tmp_path / "route", route, route.steps(3), small_library, format="merl")
     assert not (tmp_path / "route").exists()

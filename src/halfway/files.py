@@ -166,7 +166,7 @@ def require_space(folder: Place, n_bytes: int, what: str) -> None:
     free = shutil.disk_usage(existing).free
     if free < n_bytes:
         raise OutputError(
-            f"{what} takes {n_bytes / 1e9:.2f} GB and {folder} has {free / 1e9:.2f} GB free: "
+            f"{what} takes {n_bytes / 1e6:,.1f} MB and {folder} has {free / 1e6:,.1f} MB free: "
             "free some space or write elsewhere with -o."
         )
 

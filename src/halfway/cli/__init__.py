@@ -28,7 +28,7 @@ from . import (
 app = typer.Typer(
     name="halfway",
     help="New materials from measured ones.",
-    epilog="LIB is a library folder, an archive of neural fits, or builtin:merl-abc, the default. "
+    epilog="LIB is a library folder, a compact library, an archive of neural fits, builtin:synthetic-N, or builtin:merl-abc, the default. "
     "--debug shows the traceback of an error.",
     no_args_is_help=True,
     add_completion=False,

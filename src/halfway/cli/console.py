@@ -5,6 +5,7 @@ import time
 import warnings
 from collections.abc import Callable, Generator, Iterable, Iterator
 from contextlib import contextmanager
+from io import TextIOWrapper
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
@@ -88,6 +89,10 @@ def run(app: Callable[[], None]) -> None:
     debug = "--debug" in sys.argv
     sys.argv = [word for word in sys.argv if word != "--debug"]
     warnings.showwarning = _note
+    if isinstance(sys.stdout, TextIOWrapper):
+        sys.stdout.reconfigure(
+            errors="backslashreplace"
+        )  # names, where the terminal has not all letters
     try:
         app()
     except (HalfwayError, OSError) as error:
@@ -105,7 +110,8 @@ def run(app: Callable[[], None]) -> None:
 def _one_line(error: Exception) -> str:
     if isinstance(error, OSError) and error.filename is not None:
         return f"{error.filename}: {error.strerror}."
-    return str(error)
+    # A name in a file may hold anything.
+    return "".join(c if c.isprintable() else " " for c in str(error))
 
 
 def _note(message: Warning | str, *_: object, **__: object) -> None:

@@ -106,7 +106,10 @@ def info(
 
 @app.command()
 def verify(
-    lib: Annotated[str, typer.Argument(metavar="LIB", help="A library's folder, or its URL.")],
+    lib: Annotated[
+        str,
+        typer.Argument(metavar="LIB", help="A library's folder, a compact library, or its URL."),
+    ],
     as_json: AsJson = False,
     scheduler: Scheduler = "",
 ) -> None:
@@ -116,12 +119,12 @@ def verify(
 
     \b
     halfway library verify merl.brdflib
+    halfway library verify merl.brdfc
     """
-    from halfway.library import StoredLibrary, verify_library
-    from halfway.places import to_place
+    from halfway.library import open_library, verify_library
 
     with engine(scheduler) as where:
-        found = verify_library(StoredLibrary(to_place(lib)), track=track, engine=where)
+        found = verify_library(open_library(lib), track=track, engine=where)
     kinds = {"damaged": found.damaged, "changed": found.changed}
     if as_json:
         document = {"format": 1, "library": lib, "ok": found.ok, "right": found.n_right}

@@ -1,6 +1,7 @@
 """``halfway report``: the paper's table and figures, for any library."""
 
 import json
+from dataclasses import asdict
 from typing import Annotated, Any
 
 import typer
@@ -21,7 +22,9 @@ def report(
         ),
     ] = 0,
     seed: Annotated[int, typer.Option(help="Of the sample of pairs.")] = 0,
-    as_json: Annotated[bool, typer.Option("--json", help="Print report.json.")] = False,
+    as_json: Annotated[
+        bool, typer.Option("--json", help="Print report.json, or the plan of --dry-run.")
+    ] = False,
     dry_run: Annotated[
         bool, typer.Option("--dry-run", help="Say what it takes: blocks, memory, time; and stop.")
     ] = False,
@@ -40,7 +43,12 @@ def report(
 
     library = open_library(lib)
     if dry_run:
-        print("\n".join(PcaPlan.of(library).timed(library).lines()))
+        plan = PcaPlan.of(library).timed(library)
+        print(
+            json.dumps({"format": 1, **asdict(plan)}, indent=1)
+            if as_json
+            else "\n".join(plan.lines())
+        )
         return
     compared: list[dict[str, Any]] = []
     with engine(scheduler) as where:

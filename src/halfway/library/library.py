@@ -16,6 +16,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from difflib import get_close_matches
 from itertools import count
+from shlex import quote
 from typing import Any, TypeVar
 from weakref import WeakValueDictionary
 
@@ -110,7 +111,7 @@ class Library(Streamed):
             hint = f"did you mean {', '.join(near)}?" if near else f"such as {self.names[0]}."
             raise LibraryError(
                 f"{name!r} is not one of the {len(self)} materials of {self.name}: {hint} "
-                f"`halfway library info {self.name}` lists them."
+                f"`halfway library info {quote(self.address)}` lists them."
             ) from None
 
     def brdf(self, name: str) -> TabularBrdf:
