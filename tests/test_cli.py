@@ -272,6 +272,7 @@ def test_report_prints_table_1_and_writes_figures(run, lib, tmp_path):
         (["mix", "absent.json", "-o", "x.binary"], "absent.json: No such file or directory"),
         (["library", "build", "absent", "-o", "x.brdflib"], "absent does not exist"),
         (["render", "absent.binary", "-o", "x.png"], "there is no file absent.binary"),
+        (["render", "teflon", "-o", "s3://bucket/frames"], "is a URL: expected a path of this"),
     ],
 )
 def test_a_mistake_is_one_line_and_exit_1(run, words, message):

@@ -1,5 +1,6 @@
 """Options that several commands take, or whose help is long: types of their parameters."""
 
+import re
 from enum import StrEnum
 from pathlib import Path
 from typing import Annotated
@@ -14,6 +15,17 @@ Scheduler = Annotated[
     ),
 ]
 AsJson = Annotated[bool, typer.Option("--json", help="For programs.")]
+
+
+def _refuse_url(path: Path) -> Path:
+    """A path, which would be a folder called ``s3:`` where a URL is meant."""
+    if re.match(r"\w{2,}:/", str(path)):
+        from .arguments import ArgumentError
+
+        raise ArgumentError(
+            f"-o {path} is a URL: expected a path of this machine, where pictures are written. Copy them there afterwards."
+        )
+    return path
 
 
 class SpaceName(StrEnum):
@@ -112,6 +124,7 @@ Image = Annotated[
         "--output",
         "-o",
         metavar="IMAGE",
+        callback=_refuse_url,
         help=".png or .exr; .webp, .gif, .mp4 to animate; no suffix: a folder, a picture of each material.",
     ),
 ]
