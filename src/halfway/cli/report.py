@@ -63,7 +63,8 @@ def report(
     if as_json:
         print(json.dumps(found.to_json(), indent=1))
     else:
-        print(f"{library.name}: {len(library)} materials, {library.origin.description}")
+        about = f", {library.origin.description}" if library.origin.description else ""
+        print(f"{library.name}: {len(library)} materials{about}")
         print(
             "components  mean relative error  uncentred  total    unexplained variance  rms error (1/sr)"
         )

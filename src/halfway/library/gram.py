@@ -27,7 +27,7 @@ from jaxtyping import Float64, Int
 from ..errors import LibraryError
 from ..tasks import THREADS, Engine, Track, silent
 from .library import Streamed
-from .sums import measured_pieces, sum_blocks
+from .sums import join_channels, measured_pieces, sum_blocks
 
 Products = Float64[np.ndarray, "n_channels n_pairs"]
 """Of a symmetric matrix per channel, the lower triangle row by row."""
@@ -142,12 +142,11 @@ def _sum(library: Streamed, part: Part, track: Track, engine: Engine) -> _Sum:
 
 def gram_block(library: Streamed, part: Part, columns: slice) -> _Sum:
     """The task of a pass: the products on one block."""
-    found = [_channel(samples, part) for samples in library.columns(columns)]
-    products, norms, n_cells = zip(*found, strict=True)
-    return _Sum(np.stack(products), np.stack(norms), np.array(n_cells))
+    found = (_channel(samples, part) for samples in library.columns(columns))
+    return _Sum(*join_channels(found, library.n_channels))
 
 
-def _channel(samples: np.ndarray, part: Part) -> tuple[np.ndarray, np.ndarray, int]:
+def _channel(samples: np.ndarray, part: Part) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """The products of one channel of a block."""
     n, rows = len(samples), part.rows
     whole = len(rows) == n
@@ -159,7 +158,7 @@ def _channel(samples: np.ndarray, part: Part) -> tuple[np.ndarray, np.ndarray, i
         u -= u[part.origin].copy()
         # Of a matrix with its own transpose, numpy has BLAS do half the work.
         products += (u if whole else u[rows]) @ u.T
-    return (pack(products) if whole else products.ravel()), norms, n_cells
+    return (pack(products) if whole else products.ravel()), norms, np.array(n_cells)
 
 
 def _joined(

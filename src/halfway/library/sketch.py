@@ -27,7 +27,7 @@ from threadpoolctl import threadpool_limits
 
 from ..tasks import THREADS, Engine, Track, silent
 from .library import Streamed
-from .sums import measured_pieces, sum_blocks
+from .sums import join_channels, measured_pieces, sum_blocks
 
 N_PASSES = 2
 OVERSAMPLING = 32
@@ -99,13 +99,13 @@ def _sum(library: Streamed, tests: np.ndarray, label: str, track: Track, engine:
 def sketch_block(library: Streamed, tests: np.ndarray, columns: slice) -> _Sum:
     """The task of a pass: the images of the test vectors on one block."""
     block = zip(library.columns(columns), tests, strict=True)
-    found = [_channel(samples, vectors) for samples, vectors in block]
-    return _Sum(*(np.stack(parts) for parts in zip(*found, strict=True)))
+    found = (_channel(samples, vectors) for samples, vectors in block)
+    return _Sum(*join_channels(found, len(tests)))
 
 
 def _channel(
     samples: np.ndarray, tests: Float64[np.ndarray, "N n_vectors"]
-) -> tuple[np.ndarray, np.ndarray, np.ndarray, int]:
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     n = len(samples)
     images, norms, centred, n_cells = np.zeros_like(tests), np.zeros(n), np.zeros(n), 0
     for u in measured_pieces(samples):
@@ -114,7 +114,7 @@ def _channel(
         u -= u.mean(axis=0)
         centred += np.einsum("ij,ij->i", u, u)
         images += u @ (u.T @ tests)
-    return images, norms, centred, n_cells
+    return images, norms, centred, np.array(n_cells)
 
 
 def _nystrom(

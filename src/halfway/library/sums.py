@@ -1,6 +1,6 @@
 """Sums over the cells that are measured in every material of a library, in float64, a block of columns at a time."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import TypeVar
 
 import numpy as np
@@ -52,3 +52,14 @@ def measured_pieces(samples: np.ndarray) -> Iterator[Float64[np.ndarray, "N n_me
         measured = ~np.isnan(columns.sum(axis=0))
         if measured.any():
             yield (columns if measured.all() else columns[:, measured]).astype(np.float64)
+
+
+def join_channels(found: Iterable[Sequence[np.ndarray]], n_channels: int) -> list[np.ndarray]:
+    """What was found of each channel, stacked, without holding all of it twice."""
+    whole: list[np.ndarray] = []
+    for channel, parts in enumerate(found):
+        if not whole:
+            whole = [np.empty((n_channels, *np.shape(part)), part.dtype) for part in parts]
+        for total, part in zip(whole, parts, strict=True):
+            total[channel] = part
+    return whole
