@@ -14,8 +14,11 @@ Source: W. Matusik, H. Pfister, M. Brand, L. McMillan, "A Data-Driven Reflectanc
 reader that comes with the database.
 """
 
+from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from io import BufferedIOBase
+from itertools import cycle
 from pathlib import Path
 
 import numpy as np
@@ -33,7 +36,8 @@ SCALES = np.array([1.0, 1.15, 1.66]) / 1500
 UNMEASURED = -1.0
 """The sample that we write where nothing was measured."""
 
-_BLOCK = 1 << 16  # samples decoded or encoded at once: half a megabyte stays in a cache
+_BLOCK = 1 << 16  # samples decoded at once: half a megabyte stays in a cache
+_BLOCK_WRITTEN = 1 << 18  # samples encoded at once: two megabytes are worth handing to a thread
 _CHUNK = 1 << 24  # bytes read at once: a zip's stream makes a copy of each
 
 
@@ -153,14 +157,28 @@ def write_merl(path: str | Path, table: TabularBrdf) -> None:
     require_merl_shaped(table.grid, table.name)
     _require_storable(table)
     header = encode_header(table.grid)
-    encoded = np.empty(_BLOCK, "<f8")
-    with replacing(Path(path)) as temporary, temporary.open("wb") as file:
-        file.write(header)
-        for channel, scale in zip(table.values.reshape(3, -1), SCALES, strict=True):
-            for start in range(0, len(channel), _BLOCK):
-                values = channel[start : start + _BLOCK]
-                _encode(values, scale, encoded[: len(values)])
-                file.write(encoded[: len(values)].data)
+    with (
+        replacing(Path(path)) as temporary,
+        temporary.open("wb") as file,
+        ThreadPoolExecutor(1) as writer,
+    ):
+        writing = writer.submit(file.write, header)
+        # One block is written while the next is encoded.
+        for block in _encoded_blocks(table):
+            writing.result()
+            writing = writer.submit(file.write, block.data)
+        writing.result()
+
+
+def _encoded_blocks(table: TabularBrdf) -> Iterator[np.ndarray]:
+    """The samples of a file in order; each block is overwritten by the next but one."""
+    buffers = cycle(np.empty((2, _BLOCK_WRITTEN), "<f8"))
+    for channel, scale in zip(table.values.reshape(3, -1), SCALES, strict=True):
+        for start in range(0, len(channel), _BLOCK_WRITTEN):
+            values = channel[start : start + _BLOCK_WRITTEN]
+            samples = next(buffers)[: len(values)]
+            _encode(values, scale, samples)
+            yield samples
 
 
 def _encode(values: np.ndarray, scale: float, samples: np.ndarray) -> None:
