@@ -43,7 +43,10 @@ class Brdf(ABC):
         cls, brdfs: Sequence[Any], grid: Grid, rows: Part
     ) -> Float32[np.ndarray, "3 N *part"]:
         """`sample_rows` of each of ``brdfs``, all of this class: a formula may compute them together."""
-        return np.stack([brdf.sample_rows(grid, rows) for brdf in brdfs], axis=1)
+        samples = np.empty((3, len(brdfs), *grid.mask()[rows].shape), np.float32)
+        for i, brdf in enumerate(brdfs):
+            samples[:, i] = brdf.sample_rows(grid, rows)
+        return samples
 
 
 class IsotropicModel(Brdf):

@@ -67,15 +67,12 @@ class ProceduralLibrary(Library):
 
     def columns(self, columns: slice) -> Rows:
         part = self._parts[columns.start, columns.stop]
-        block = np.empty((3, len(self), columns.stop - columns.start), np.float32)
-        start = 0
-        for kind, brdfs in groupby(self._brdfs, type):
-            some = list(brdfs)
-            stop = start + len(some)
-            samples = kind.sample_many(some, self.grid, part)
-            block[:, start:stop] = samples.reshape(3, len(some), -1)
-            start = stop
-        return block
+        sets = [
+            kind.sample_many(list(brdfs), self.grid, part)
+            for kind, brdfs in groupby(self._brdfs, type)
+        ]
+        together = sets[0] if len(sets) == 1 else np.concatenate(sets, axis=1)
+        return together.reshape(3, len(self), -1)
 
     def blocks(self) -> list[slice]:
         return [slice(start, stop) for start, stop in self._parts]

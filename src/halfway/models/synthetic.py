@@ -19,6 +19,7 @@ BRDF Model for Physically-based Rendering", CGF 13(3), 1994 (F); R. Cook, K. Tor
 Computer Graphics", ACM TOG 1(1), 1982 (G).
 """
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
 from typing import Any, ClassVar
@@ -99,12 +100,14 @@ class SyntheticModel(IsotropicModel):
     def sample_many(
         cls, brdfs: Sequence[Any], grid: Grid, rows: Part
     ) -> Float32[np.ndarray, "3 N *part"]:
-        step = max(1, CELLS_IN_CACHE // max(1, grid.mask()[rows].size))
-        sets = [brdfs[i : i + step] for i in range(0, len(brdfs), step)]
-        parts = [
-            _stacked(some, len(grid.axes))._sample_rows(grid, rows, (3, len(some))) for some in sets
-        ]
-        return np.concatenate(parts, axis=1)
+        shape = grid.mask()[rows].shape
+        samples = np.empty((3, len(brdfs), *shape), np.float32)
+        step = max(1, CELLS_IN_CACHE // max(1, math.prod(shape)))
+        for start in range(0, len(brdfs), step):
+            some = brdfs[start : start + step]
+            model = _stacked(some, len(grid.axes))
+            samples[:, start : start + step] = model._sample_rows(grid, rows, (3, len(some)))
+        return samples
 
     def distribution(self, theta_h: Angle, lobe: int) -> Angle:
         """D of one lobe, 1/sr."""

@@ -117,7 +117,9 @@ function paint(
       prepared.delete(underPoints);
       return;
     }
-    const milliseconds = painter.measure();
+    let milliseconds = painter.measure();
+    // Much else begins now: a slow pass is given a second chance.
+    if (milliseconds > PATIENCE) milliseconds = Math.min(milliseconds, painter.measure());
     prepared.set(underPoints, true);
     const present = refined ? 1 : quality;
     const fitting = Math.max(LEAST_QUALITY, present * Math.min(1, Math.sqrt(PATIENCE / milliseconds)));
@@ -163,7 +165,9 @@ function paint(
     const budget = loop.budget();
     // What has no picture at all gets one in any case, and is shown before it gets better.
     const first = painter.improve(names, Math.max(1, Math.floor(AT_ONCE / loop.passMilliseconds)), 1) > 0;
-    const working = first || (recipe.length > 0 && painter.improve(names, budget) === budget);
+    // A small picture need not be finished: the large one starts over.
+    const target = refined || quality === 1 ? painter.targetSamples : SAMPLES_TO_SHOW;
+    const working = first || (recipe.length > 0 && painter.improve(names, budget, target) === budget);
     // Then what the slider meets next, at a few samples: crossing into it shows at once.
     const half = Math.ceil(budget / 2);
     const ahead =
