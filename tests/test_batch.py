@@ -133,6 +133,14 @@ def test_temporaries_of_a_killed_run_are_swept_and_other_hidden_files_stay(tmp_p
     assert verify(tmp_path).foreign == [".DS_Store"]
 
 
+def test_temporaries_of_killed_workers_are_swept_too(tmp_path):
+    with Batch.open(tmp_path, {"a.txt": {"t": 0}}, made=MADE, n_bytes=10) as batch:
+        (tmp_path / ".a.0123456789ab.txt").write_text("half")
+        (tmp_path / "a.txt").write_text("whole")
+        batch.add("a.txt", Checksum.of(tmp_path / "a.txt"))
+    assert verify(tmp_path) == (1, [], [], [])
+
+
 def test_two_runs_do_not_share_a_folder(tmp_path):
     with (
         Batch.open(tmp_path, OUTPUTS, made=MADE, n_bytes=10),

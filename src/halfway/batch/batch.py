@@ -69,6 +69,7 @@ class Batch:
             yield cls(folder, outputs, manifest.entries)
             manifest = Manifest.read(folder)
             if manifest is not None and manifest.finished:
+                sweep(folder)  # of workers that were killed, whose tasks others did
                 manifest.write(folder)
 
     def add(self, name: str, checksum: Checksum) -> None:
