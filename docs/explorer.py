@@ -1,7 +1,7 @@
 """The pictures and the numbers of the page on the explorer, made by driving it in Chromium.
 
-``python docs/explorer.py`` writes screenshots, and a picture of six materials in the page beside the same in Mitsuba, and prints how
-far the two are apart. ``--only compare`` or ``--only screens`` does one of the two.
+``python docs/explorer.py`` writes screenshots, and pictures of three materials on a sphere and a teapot in two lights, in the page
+beside the same in Mitsuba, and prints how far the two are apart. ``--only compare`` or ``--only screens`` does one of the two.
 """
 
 import argparse
@@ -10,6 +10,7 @@ import threading
 from collections.abc import Generator
 from contextlib import contextmanager, suppress
 from dataclasses import replace
+from itertools import product
 from pathlib import Path
 
 import numpy as np
@@ -30,7 +31,9 @@ IMAGES = Path(__file__).parent / "images"
 FLAGS = ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
 MATERIALS = {"pink-felt": "matte", "cherry-235": "glossy", "chrome": "mirror-like"}
 SPHERE = SCENES["spheres"]
-SCENE_OF = {"points": SPHERE, "studio": replace(SPHERE, points=())}
+# As the page has it: under the sphere's lights, and nothing else stands there.
+TEAPOT = replace(SCENES["teapot"], points=SPHERE.points, ground=False)
+SCENE_OF = {"sphere": SPHERE, "teapot": TEAPOT}
 LIGHTS = {"points": "three lights", "studio": "studio"}
 EXPOSURE = -1.0
 SPP = 1024
@@ -74,18 +77,19 @@ def served(library: Library) -> Generator[str]:
 def compare(browser: Browser, address: str, library: Library) -> None:
     """The page beside Mitsuba: the picture, and a table of mean differences."""
     page = browser.new_page(viewport={"width": 480, "height": 640}, color_scheme="dark")
-    print("| material | light | mean difference |\n|---|---|---|")
+    print("| material | object | light | mean difference |\n|---|---|---|---|")
     rows: list[np.ndarray] = []
-    for light, scene in SCENE_OF.items():
+    for shape, light in product(SCENE_OF, LIGHTS):
+        scene = SCENE_OF[shape] if light == "points" else replace(SCENE_OF[shape], points=())
         row: list[np.ndarray] = []
         for name, kind in MATERIALS.items():
-            shown, covered = in_page(page, address, name, light)
+            shown, covered = in_page(page, address, name, shape, light)
             height, width = covered.shape
             renderer = Renderer(scene, size=(width, height), spp=SPP)
             rendered = clipped(2**EXPOSURE * renderer.picture(library.brdf(name)))
             inside = eroded(covered)
             difference = np.abs(shown - rendered)[inside].mean() / rendered[inside].mean()
-            print(f"| {name} ({kind}) | {LIGHTS[light]} | {difference:.2%} |", flush=True)
+            print(f"| {name} ({kind}) | {shape} | {LIGHTS[light]} | {difference:.2%} |", flush=True)
             row += [square(shown, covered), square(rendered, covered)]
         rows.append(np.concatenate(row, axis=1))
     page.close()
@@ -93,11 +97,14 @@ def compare(browser: Browser, address: str, library: Library) -> None:
     Image.fromarray(picture).save(IMAGES / "explorer-beside-mitsuba.webp", quality=88)
 
 
-def in_page(page: Page, address: str, name: str, light: str) -> tuple[np.ndarray, np.ndarray]:
+def in_page(
+    page: Page, address: str, name: str, shape: str, light: str
+) -> tuple[np.ndarray, np.ndarray]:
     """Linear RGB of the page's picture (height, width, 3), and which pixels the object covers."""
     other = next(material for material in MATERIALS if material != name)
     page.goto("about:blank")
-    page.goto(f"{address}#space=linear&stops={name},{other}&t=0&light={light}&exposure={EXPOSURE}")
+    stops = f"stops={name},{other}&t=0"
+    page.goto(f"{address}#space=linear&{stops}&shape={shape}&light={light}&exposure={EXPOSURE}")
     page.wait_for_selector(".material[data-settled=true]", timeout=300_000)
     # From the drawing buffer, not a screenshot: neither scaled nor composited.
     width, height, data = page.evaluate(

@@ -1,4 +1,4 @@
-import { defineConfig } from "vite";
+import { defineConfig } from "vitest/config";
 
 // The page goes into the Python package, which serves it; `npm run dev` asks a running `halfway view` for data.
 export default defineConfig({
@@ -13,4 +13,6 @@ export default defineConfig({
   server: {
     proxy: { "/api": { target: "http://127.0.0.1:8765", changeOrigin: true } },
   },
+  // Other work may share the machine.
+  test: { testTimeout: 60_000 },
 });

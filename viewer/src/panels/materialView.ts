@@ -70,8 +70,8 @@ function paint(
   let quality = 1;
   let refined = true;
   let idle = 0;
-  /** By whether the light is the three points: begun, and done. */
-  const prepared = new Map<boolean, boolean>();
+  /** By what makes a pass slow: begun, and done. */
+  const prepared = new Map<string, boolean>();
   const hold = el("canvas.view.hold", { "aria-hidden": "true", hidden: true });
   canvas.after(hold);
   const fitSize = () => {
@@ -106,21 +106,26 @@ function paint(
   };
   const loading = new Set<Light>();
   let shownLight: Environment | null = environments.get("studio") ?? null;
+  /** What a pass draws: an object with shadows takes longer than a sphere. */
+  const setting = () => {
+    const { shape, mesh } = store.get();
+    return [painter.underPoints, shape, shape === "mesh" && mesh?.name].join();
+  };
   /** Shaders, and how large a picture this card can draw while something moves: before the tables come. */
   const prepare = async () => {
-    const { underPoints } = painter;
-    if (prepared.has(underPoints)) return;
-    prepared.set(underPoints, false);
+    const now = setting();
+    if (prepared.has(now)) return;
+    prepared.set(now, false);
     await painter.warmUp();
-    // Had the light changed meanwhile, its own turn comes.
-    if (signal.aborted || painter.underPoints !== underPoints) {
-      prepared.delete(underPoints);
+    // Had it changed meanwhile, its own turn comes.
+    if (signal.aborted || setting() !== now) {
+      prepared.delete(now);
       return;
     }
     let milliseconds = painter.measure();
     // Much else begins now: a slow pass is given a second chance.
     if (milliseconds > PATIENCE) milliseconds = Math.min(milliseconds, painter.measure());
-    prepared.set(underPoints, true);
+    prepared.set(now, true);
     const present = refined ? 1 : quality;
     const fitting = Math.max(LEAST_QUALITY, present * Math.min(1, Math.sqrt(PATIENCE / milliseconds)));
     loop.passMilliseconds = milliseconds * (fitting / present) ** 2;
@@ -153,7 +158,7 @@ function paint(
     hold.hidden = false;
   };
   const loop = new Loop(() => {
-    if (!prepared.get(painter.underPoints)) {
+    if (!prepared.get(setting())) {
       if (painter.hasSize) void prepare();
       return false;
     }

@@ -79,6 +79,9 @@ export class Painter {
       uNormal: { value: this.stage.target.textures[0] },
       uPosition: { value: this.stage.target.textures[1] },
       uEye: { value: this.stage.camera.position },
+      uBoxes: { value: null },
+      uTriangles: { value: null },
+      uBoxCount: { value: 0 },
     });
     const accumulate = {
       blending: CustomBlending,
@@ -160,6 +163,10 @@ export class Painter {
   look(shape: Shape, orbit: Orbit, mesh: BufferGeometry | null, environment: Environment | null): void {
     this.stage.look(shape, orbit, mesh);
     this.pass = environment === null ? this.points : this.environment;
+    const { occluder } = this.stage;
+    this.pass.uniforms.uBoxes!.value = occluder?.boxes ?? null;
+    this.pass.uniforms.uTriangles!.value = occluder?.triangles ?? null;
+    this.pass.uniforms.uBoxCount!.value = occluder?.nBoxes ?? 0;
     if (environment !== null) {
       this.environment.uniforms.uEnv!.value = environment.picture;
       this.environment.uniforms.uEnvRows!.value = environment.rows;

@@ -25,7 +25,9 @@ import meshVertex from "./glsl/mesh.vert.glsl?raw";
 import random from "./glsl/random.glsl?raw";
 import screen from "./glsl/screen.vert.glsl?raw";
 import shade from "./glsl/shade.frag.glsl?raw";
+import shadow from "./glsl/shadow.glsl?raw";
 import sphere from "./glsl/sphere.frag.glsl?raw";
+import { OCCLUDER_BITS } from "./occluder";
 
 export const MAX_TERMS = 32;
 /** 2^32 / g and 2^32 / g^2 with g^3 = g + 1, for the light, and again for the half vector. */
@@ -34,12 +36,12 @@ const STEPS = [0xc13fa9a9, 0x91e10da5, 0xc13fa9a9, 0x91e10da5] as const;
 export type Uniforms = Record<string, IUniform>;
 
 const HEAD = "precision highp float;\nprecision highp int;\n";
+const surface = halfdiff + brdf + shadow.replace("@BITS@", String(OCCLUDER_BITS));
 
-export const pointsShader = `${HEAD}#define POINTS\n${halfdiff}${brdf}${shade}`;
+export const pointsShader = `${HEAD}#define POINTS\n${surface}${shade}`;
 export const environmentShader =
   HEAD +
-  halfdiff +
-  brdf +
+  surface +
   random.replace("@STEPS@", STEPS.map((step) => `${step}u`).join(", ")) +
   inversion +
   environment +

@@ -18,6 +18,7 @@ import {
 } from "three";
 import { TeapotGeometry } from "three/addons/geometries/TeapotGeometry.js";
 
+import { disposeOccluder, type Occluder, toOccluder } from "./occluder";
 import { meshMaterial, Pass, sphereShader } from "./shaders";
 
 /** `mesh` is a person's own. */
@@ -35,21 +36,28 @@ export const HOME: Orbit = { azimuth: 0, elevation: 0, zoom: 1 };
 interface View {
   readonly eye: Vector3;
   readonly target: Vector3;
-  /** Of the shorter side, in degrees. */
+  /** In degrees, of the width of what must be seen. */
   readonly fov: number;
-  /** At least this much from left to right. */
-  readonly wide: number;
+  /** Width by height of what must be seen. */
+  readonly aspect: number;
 }
 
-// The cameras of `halfway.render.scenes`.
+// The cameras of `halfway.render.scenes`; that of a mesh is the page's own.
 const VIEWS: Record<Shape, View> = {
-  sphere: { eye: new Vector3(0, -12, 1), target: new Vector3(0, 0, 1), fov: 11, wide: 11 },
-  teapot: { eye: new Vector3(0.15, -13, 5.6), target: new Vector3(0.1, 0, 1.32), fov: 28, wide: 31 },
-  mesh: { eye: new Vector3(0, -12.5, 3.2), target: new Vector3(0, 0, 0), fov: 21, wide: 21 },
+  sphere: { eye: new Vector3(0, -12, 1), target: new Vector3(0, 0, 1), fov: 11, aspect: 1 },
+  teapot: { eye: new Vector3(0.15, -13, 5.4), target: new Vector3(0.12, 0, 1.4), fov: 29, aspect: 1.3 },
+  mesh: { eye: new Vector3(0, -12.5, 3.2), target: new Vector3(0, 0, 0), fov: 21, aspect: 1 },
 };
 const TEAPOT_HEIGHT = 3.15;
 const TEAPOT_TURN = (-28 * Math.PI) / 180;
 const UP = new Vector3(0, 0, 1);
+
+/** A mesh as it is drawn, and as it is in the light's way. */
+interface Standing {
+  readonly geometry: BufferGeometry;
+  readonly scene: Scene;
+  readonly occluder: Occluder;
+}
 
 export class Stage {
   readonly camera = new PerspectiveCamera();
@@ -62,11 +70,7 @@ export class Stage {
   });
   private shape: Shape = "sphere";
   private readonly size = new Vector2(1, 1);
-  private readonly scenes: Readonly<Record<Exclude<Shape, "sphere">, Scene>> = {
-    teapot: new Scene(),
-    mesh: new Scene(),
-  };
-  private mesh: BufferGeometry | null = null;
+  private readonly standing = new Map<Shape, Standing>();
   readonly sphere = new Pass(sphereShader, {
     uToWorld: { value: new Matrix4() },
     uEye: { value: this.camera.position },
@@ -81,13 +85,9 @@ export class Stage {
 
   look(shape: Shape, orbit: Orbit, mesh: BufferGeometry | null): void {
     this.shape = shape;
-    if (shape === "teapot" && this.scenes.teapot.children.length === 0)
-      this.scenes.teapot.add(toObject(teapot()));
-    if (shape === "mesh" && mesh !== null && mesh !== this.mesh) {
-      this.mesh?.dispose();
-      this.mesh = mesh;
-      this.scenes.mesh.clear().add(toObject(mesh));
-    }
+    if (shape === "teapot" && !this.standing.has(shape)) this.put(shape, teapot());
+    if (shape === "mesh" && mesh !== null && mesh !== this.standing.get(shape)?.geometry)
+      this.put(shape, mesh);
     const view = VIEWS[shape];
     const arm = view.eye.clone().sub(view.target);
     const distance = arm.length() / orbit.zoom;
@@ -101,12 +101,26 @@ export class Stage {
     this.camera.near = distance / 10;
     this.camera.far = distance * 3;
     this.camera.aspect = this.size.x / this.size.y;
-    const [shorter, wide] = [view.fov, view.wide].map((degrees) => Math.tan((degrees * Math.PI) / 360));
-    const { aspect } = this.camera;
-    const half = Math.max(aspect < 1 ? shorter! / aspect : shorter!, wide! / aspect);
+    const half = Math.tan((view.fov * Math.PI) / 360) / Math.min(view.aspect, this.camera.aspect);
     this.camera.fov = (360 / Math.PI) * Math.atan(half);
     this.camera.updateProjectionMatrix();
     this.camera.updateMatrixWorld();
+  }
+
+  /** What casts shadows on itself; null where nothing does. */
+  get occluder(): Occluder | null {
+    return this.standing.get(this.shape)?.occluder ?? null;
+  }
+
+  private put(shape: Shape, geometry: BufferGeometry): void {
+    const before = this.standing.get(shape);
+    if (before) {
+      before.geometry.dispose();
+      disposeOccluder(before.occluder);
+    }
+    // First the occluder, which puts the triangles into its order.
+    const occluder = toOccluder(geometry);
+    this.standing.set(shape, { geometry, occluder, scene: new Scene().add(toObject(geometry)) });
   }
 
   /** Draw the buffer, seen through the point (x, y) of each pixel, in [0, 1). */
@@ -122,19 +136,21 @@ export class Stage {
       renderer.setRenderTarget(this.target);
       renderer.setClearColor(0x000000, 0);
       renderer.clear();
-      renderer.render(this.scenes[this.shape], this.camera);
+      const standing = this.standing.get(this.shape);
+      if (standing) renderer.render(standing.scene, this.camera);
     }
   }
 }
 
-/** The pot of three's examples, standing on z = 0, spout to +x before it is turned. */
+/** three's pot with the lid as published; the middle of its foot is the origin, its spout points to +x before the turn. */
 function teapot(): BufferGeometry {
-  const geometry = new TeapotGeometry(1, 12);
+  const geometry = new TeapotGeometry(1, 24, true, true, true, false);
   geometry.rotateX(Math.PI / 2);
   geometry.computeBoundingBox();
-  const box = geometry.boundingBox!;
-  const scale = TEAPOT_HEIGHT / (box.max.z - box.min.z);
-  return geometry.translate(0, 0, -box.min.z).scale(scale, scale, scale).rotateZ(TEAPOT_TURN);
+  const { min, max } = geometry.boundingBox!;
+  const scale = TEAPOT_HEIGHT / (max.z - min.z);
+  geometry.translate(-(min.x + max.x) / 2, -(min.y + max.y) / 2, -min.z);
+  return geometry.scale(scale, scale, scale).rotateZ(TEAPOT_TURN);
 }
 
 function toObject(geometry: BufferGeometry): Mesh {

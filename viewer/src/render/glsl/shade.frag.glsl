@@ -13,10 +13,11 @@ vec3 shade(vec3 n, vec3 at, vec3 wo) {
   vec3 sum = vec3(0.0);
   for (int i = 0; i < 3; i++) {
     vec3 way = uLights[i] - at;
-    float distance2 = dot(way, way);
-    vec3 wi = way * inversesqrt(distance2);
+    float far = length(way);
+    vec3 wi = way / far;
     float cosine = dot(n, wi);
-    if (cosine > 0.0) sum += evalTable(toHalfDiff(n, wi, wo)) * cosine * uIntensities[i] / distance2;
+    if (cosine > 0.0 && !occluded(at, wi, far))
+      sum += evalTable(toHalfDiff(n, wi, wo)) * cosine * uIntensities[i] / (far * far);
   }
   return sum;
 }
@@ -26,9 +27,9 @@ uniform int uSamples;
 
 // One sample of the multi-sample estimator with the balance heuristic: E. Veach, L. Guibas, "Optimally Combining
 // Sampling Techniques for Monte Carlo Rendering", SIGGRAPH 1995, section 3.
-vec3 contribution(vec3 n, vec3 wi, vec3 wo) {
+vec3 contribution(vec3 n, vec3 at, vec3 wi, vec3 wo) {
   float cosine = dot(n, wi);
-  if (cosine <= 0.0) return vec3(0.0);
+  if (cosine <= 0.0 || occluded(at, wi, FAR)) return vec3(0.0);
   vec3 angles = toHalfDiff(n, wi, wo);
   vec2 uv = toPicture(wi);
   float pdf = pdfEnv(wi, uv) + pdfLobe(angles.x, angles.y);
@@ -40,8 +41,8 @@ vec3 shade(vec3 n, vec3 at, vec3 wo) {
   vec3 sum = vec3(0.0);
   for (int s = 0; s < uSamples; s++) {
     uint i = uFirst + uint(s);
-    sum += contribution(n, sampleEnv(vec2(random(i, 0, pixel), random(i, 1, pixel))), wo);
-    sum += contribution(n, sampleLobe(n, wo, vec2(random(i, 2, pixel), random(i, 3, pixel))), wo);
+    sum += contribution(n, at, sampleEnv(vec2(random(i, 0, pixel), random(i, 1, pixel))), wo);
+    sum += contribution(n, at, sampleLobe(n, wo, vec2(random(i, 2, pixel), random(i, 3, pixel))), wo);
   }
   return sum / float(uSamples);
 }
