@@ -295,6 +295,12 @@ def test_no_more_joint_scores_are_given_than_there_are():
     assert_allclose(made.joint_scores(7)[:, :4], made.joint_scores(4), atol=1e-9)
 
 
+@pytest.mark.parametrize("n_kept", [2, 9])
+def test_no_joint_scores_may_be_asked_for(n_kept):
+    """An anchored space may do with its anchors."""
+    assert Pca.fit(grown(9), n_components=n_kept).joint_scores(0).shape == (9, 0)
+
+
 def test_a_sketch_of_fewer_dimensions_than_asked_for_ends_in_zeros():
     library = ProceduralLibrary("flat", random_tables(5, GRID) | doubled(5), grid=GRID)
     found = sketch(library, 8)

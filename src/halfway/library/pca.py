@@ -183,12 +183,13 @@ def _eigen(
     else:
         from scipy.linalg import eigh  # a second to load
 
-        decompose = partial(eigh, subset_by_index=(n - k, n - 1), check_finite=False)
+        # It refuses to find none.
+        decompose = partial(eigh, subset_by_index=(n - max(k, 1), n - 1), check_finite=False)
     # More than one thread of BLAS waits for itself on a busy machine: ten times the time, and more. The limit binds those
     # that are loaded, and scipy has one of its own.
     with threadpool_limits(1, "blas"):
         eigenvalues, vectors = decompose(gram)
-    return np.maximum(eigenvalues[::-1], 0.0), vectors[:, ::-1]
+    return np.maximum(eigenvalues[::-1][:k], 0.0), vectors[:, ::-1][:, :k]
 
 
 def _signed(vectors: Float64[np.ndarray, "*c N k"]) -> Float64[np.ndarray, "*c N k"]:
