@@ -8,10 +8,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
+from strategies import random_tables
 
 from halfway.brdf import difference, tabulate
 from halfway.brdf.image_metrics import appearance, cielab_difference, to_lab
 from halfway.brdf.metrics import MAPPINGS
+from halfway.errors import LibraryError
 from halfway.formats import read_nbrdf_archive
 from halfway.halfdiff import Grid
 from halfway.library import (
@@ -21,6 +23,7 @@ from halfway.library import (
     BasisSamples,
     Pca,
     ProceduralLibrary,
+    body_colours,
 )
 from halfway.library.basis_samples import body_mask
 from halfway.models import AbcModel
@@ -218,6 +221,19 @@ def test_body_colours_are_seen_beside_the_highlight_and_away_from_grazing():
     rows, columns = (np.flatnonzero(mask.any(axis=axes)) for axes in ((1, 2), (0, 2)))
     assert (rows[0], columns[0], columns[-1]) == (47, 0, 49)
     assert (mask[47:, :50] == merl.mask()[47:, :50]).all()
+
+
+def test_a_material_without_a_body_colour_is_named():
+    grid = Grid.merl(4, 4, 4)
+    tables = random_tables(2, grid)
+    hidden = tables["material-1"]
+    values = np.where(body_mask(grid), np.float32(np.nan), hidden.values)
+    tables["material-1"] = dataclasses.replace(hidden, values=values)
+    library = ProceduralLibrary("two", tables, grid=grid)
+    message = "material-1 of two has no measured cell with theta_h above 25 and theta_d below 50"
+    for fit in (body_colours, BasisSamples.fit):
+        with pytest.raises(LibraryError, match=message):
+            fit(library)
 
 
 def test_samples_come_back_from_the_cache(library: ProceduralLibrary, tmp_path):

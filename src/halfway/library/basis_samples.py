@@ -20,6 +20,7 @@ from jaxtyping import Float, Float32, Float64, Int
 
 from .._types import Mask
 from ..brdf.metrics import MAPPINGS, Metric, comparison_cells
+from ..errors import LibraryError
 from ..halfdiff import Grid
 from ..tasks import THREADS, Engine, Track, run, silent
 from .cache import cached
@@ -60,7 +61,13 @@ class BasisSamples:
         track: Track = silent,
         engine: Engine = THREADS,
     ) -> "BasisSamples":
-        """Samples of ``library`` on about ``n_cells`` cells; kept in a ``cache`` folder under its checksum."""
+        """Samples of ``library`` on about ``n_cells`` cells; kept in a ``cache`` folder under its checksum.
+
+        Raises
+        ------
+        LibraryError
+            As `body_colours`.
+        """
         key = f"samples-1-{n_cells}-{seed}-{library.checksum}"
         drawn = _draw_cells(library.grid, n_cells, seed)
         arrays = cached(cache, key, lambda: _read(library, drawn.cells, track, engine))
@@ -118,7 +125,13 @@ def body_colours(
     track: Track = silent,
     engine: Engine = THREADS,
 ) -> Float64[np.ndarray, "N 3"]:
-    """The body colours of all materials of ``library``, 1/sr; kept in a ``cache`` folder under its checksum."""
+    """The body colours of all materials of ``library``, 1/sr; kept in a ``cache`` folder under its checksum.
+
+    Raises
+    ------
+    LibraryError
+        When a material is measured on none of the cells of `body_mask`.
+    """
 
     def read() -> dict[str, np.ndarray]:
         cells = np.flatnonzero(body_mask(library.grid))
@@ -171,14 +184,21 @@ def _read_one(
     i: int,
 ) -> tuple[Float32[np.ndarray, "3 n_cells"], Float64[np.ndarray, " 3"]]:
     row = library.row(i)
-    return row[:, cells], _mean(row, body)
+    return row[:, cells], _body_colour(library, row, body, i)
 
 
 def _body(library: Library, cells: Int[np.ndarray, " n_body"], i: int) -> Float64[np.ndarray, " 3"]:
-    return _mean(library.row(i), cells)
+    return _body_colour(library, library.row(i), cells, i)
 
 
-def _mean(
-    row: Float32[np.ndarray, "3 p"], cells: Int[np.ndarray, " n_body"]
+def _body_colour(
+    library: Library, row: Float32[np.ndarray, "3 p"], cells: Int[np.ndarray, " n_body"], i: int
 ) -> Float64[np.ndarray, " 3"]:
-    return np.asarray(np.nanmean(row[:, cells], axis=1, dtype=np.float64))
+    body = row[:, cells]
+    if np.isnan(body).all(axis=1).any():
+        raise LibraryError(
+            f"{library.names[i]} of {library.name} has no measured cell with theta_h above {BODY_THETA_H_DEGREES:g} and "
+            f"theta_d below {BODY_THETA_D_DEGREES:g} degrees: a body colour is the mean of those. Build a library "
+            "without it or on a finer grid, or take --space linear."
+        )
+    return np.asarray(np.nanmean(body, axis=1, dtype=np.float64))
