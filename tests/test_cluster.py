@@ -19,7 +19,7 @@ from halfway.errors import ClusterError, FormatError, LibraryError, MissingExtra
 from halfway.export import compare_spaces, write_route
 from halfway.formats import write_merl
 from halfway.halfdiff import Grid
-from halfway.library import BasisImages, BasisSamples, Pca, StoredLibrary
+from halfway.library import BasisImages, BasisSamples, Pca, StoredLibrary, verify_library
 from halfway.space import LinearSpace, Mixer
 from halfway.tasks import THREADS, Threads, run
 
@@ -84,6 +84,14 @@ def test_results_come_in_order(cluster):
 def test_a_library_is_the_same_bytes(cluster, folder, library, tmp_path):
     build_library([folder], tmp_path / "again.brdflib", engine=cluster)
     assert files(tmp_path / "again.brdflib") == files(library.path)
+
+
+def test_a_library_of_files_named_from_here_is_right_there_too(
+    cluster, folder, tmp_path, monkeypatch
+):
+    monkeypatch.chdir(folder.parent)
+    built = build_library([folder.name], tmp_path / "here.brdflib", engine=cluster)
+    assert verify_library(built.library, engine=cluster) == (9, [], [])
 
 
 def test_components_pictures_and_samples_are_the_same_bytes(cluster, library):

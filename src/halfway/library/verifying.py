@@ -64,8 +64,9 @@ def _is_right(library: StoredLibrary, i: int) -> bool:
 
 def _file(entry: Entry) -> str | None:
     """The file that a material came from, if it is there; a member of a zip is called ``archive.zip:member``."""
-    files = (entry.source, entry.source.rpartition(":")[0])
-    return next((file for file in files if Path(file).is_file()), None)
+    files = map(Path, (entry.source, entry.source.rpartition(":")[0]))
+    # Workers may be in another folder.
+    return next((str(file.absolute()) for file in files if file.is_file()), None)
 
 
 def _checksums(source: str) -> dict[str, str]:
