@@ -6,6 +6,7 @@ import subprocess
 import sys
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from halfway.cli import arguments
@@ -13,7 +14,7 @@ from halfway.cli import main as halfway
 from halfway.errors import HalfwayError
 from halfway.formats import write_merl
 from halfway.halfdiff import Grid
-from halfway.library import CompactLibrary, build_library
+from halfway.library import CompactLibrary, build_library, open_library
 from halfway.library.compact import write_compact
 
 
@@ -57,6 +58,20 @@ def test_a_library_is_built_on_a_grid_added_to_and_kept_compact(run, tmp_path):
     assert "reconstructed from 9 principal components" in out
     code, out, _ = run("route", "a.brdfc", "chrome", "metal-0002", "-n", "3", "--json")
     assert len(json.loads(out)["recipes"]) == 3
+
+
+def test_a_compact_library_is_a_source_like_any_other(run):
+    run("library", "build", "builtin:synthetic-4", "--grid", "6x5x4", "-o", "a.brdflib")
+    run("library", "compact", "a.brdflib", "-k", "3", "-o", "a.brdfc")
+    code, _, err = run("library", "build", "a.brdfc", "builtin:merl-abc", "-o", "b.brdflib")
+    assert (code, err.partition(".")[0]) == (0, "b")
+    assert "104 materials on 6 x 5 x 4" in err
+    built, compact = open_library("b.brdflib"), open_library("a.brdfc")
+    np.testing.assert_array_equal(built.row(2), compact.row(2))
+    assert "reconstructed from 3 principal components" in built.origin.description
+    assert "changed" not in run("library", "verify", "b.brdflib")[1]
+    run("library", "compact", "a.brdflib", "-k", "2", "-o", "a.brdfc")
+    assert run("library", "verify", "b.brdflib")[1].count("changed") == 4
 
 
 def test_a_compact_library_whose_making_was_stopped_says_so(run, tmp_path):

@@ -24,6 +24,8 @@ from ..formats.find import Credit
 from ..halfdiff import MERL, Grid
 from ..places import Place, RemotePath, to_place
 from ..tasks import THREADS, Engine, Track, run, silent
+from .compact import SUFFIX as COMPACT_SUFFIX
+from .compact import CompactLibrary
 from .library import Origin
 from .stored import (
     DESCRIPTION,
@@ -55,7 +57,7 @@ def build_library(
 ) -> Built:
     """Tabulate every BRDF found in ``sources`` (files, folders, zips, ``builtin:NAME``) into a library at ``path``.
 
-    A source may be a stored library, the one at ``path`` as well: so materials are added to it. Materials that are not tables
+    A source may be a stored library, the one at ``path`` as well: so materials are added to it; or a compact one. Materials that are not tables
     are sampled on ``grid``, by default that of those that are, or else the MERL grid.
 
     Raises
@@ -65,7 +67,7 @@ def build_library(
     OutputError
         When ``path`` cannot be written or the disk has no room.
     """
-    found, skipped = _find(sources)
+    found, skipped = find_materials(sources)
     if not found:
         reasons = "; ".join(f"{item.path}: {item.reason}" for item in skipped[:3])
         raise LibraryError(
@@ -130,11 +132,19 @@ def _refuse_foreign_folder(path: Place) -> None:
         )
 
 
-def _find(sources: Sequence[str | Place]) -> tuple[list[Found], list[Skipped]]:
-    """The materials of the libraries among the sources, then the BRDFs in the others."""
+def find_materials(sources: Sequence[str | Place]) -> tuple[list[Found], list[Skipped]]:
+    """The materials of the libraries among the sources, then the BRDFs in the others.
+
+    Raises
+    ------
+    LibraryError
+        When two have the same name, or a library is damaged.
+    FormatError
+        As `halfway.formats.find_brdfs`.
+    """
     libraries = [source for source in sources if _is_library(source)]
     others = [str(source) for source in sources if source not in libraries]
-    kept = [item for source in libraries for item in _materials(StoredLibrary(to_place(source)))]
+    kept = [item for source in libraries for item in _materials(to_place(source))]
     found, skipped = find_brdfs(others)
     origins: dict[str, str] = {}
     for item in [*kept, *found]:
@@ -148,20 +158,25 @@ def _find(sources: Sequence[str | Place]) -> tuple[list[Found], list[Skipped]]:
 
 
 def _is_library(source: str | Place) -> bool:
-    return not str(source).startswith("builtin:") and (to_place(source) / DESCRIPTION).exists()
+    if str(source).startswith("builtin:"):
+        return False
+    place = to_place(source)
+    return place.suffix == COMPACT_SUFFIX or (place / DESCRIPTION).exists()
 
 
-def _materials(library: StoredLibrary) -> list[Found]:
+def _materials(place: Place) -> list[Found]:
+    if place.suffix == COMPACT_SUFFIX:
+        library = CompactLibrary(place)
+        origins = [(str(place), checksum) for checksum in library.material_checksums]
+    else:
+        library = StoredLibrary(place)
+        origins = [(entry.source, entry.source_sha256) for entry in library.entries]
+    credit = Credit(*astuple(library.origin))
     return [
         Found(
-            entry.name,
-            entry.source,
-            library.grid,
-            Credit(*astuple(library.origin)),
-            partial(library.brdf, entry.name),
-            partial(str, entry.source_sha256),
+            name, source, library.grid, credit, partial(library.brdf, name), partial(str, checksum)
         )
-        for entry in library.entries
+        for name, (source, checksum) in zip(library.names, origins, strict=True)
     ]
 
 

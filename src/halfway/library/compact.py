@@ -30,7 +30,7 @@ import math
 import zipfile
 import zlib
 from dataclasses import asdict, dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import Any, NamedTuple, get_args
 
 import numpy as np
@@ -304,8 +304,9 @@ def _damaged(path: Place, what: str) -> LibraryError:
     )
 
 
+@lru_cache(maxsize=1)
 def _opened(path: Place, checksum: str) -> CompactLibrary:
-    """The library that another process means."""
+    """The library that another process means; the last one stays open, with its numbers."""
     library = CompactLibrary(path)
     if library.checksum != checksum:
         raise LibraryError(

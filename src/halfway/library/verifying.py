@@ -6,9 +6,9 @@ from functools import partial
 from pathlib import Path
 from typing import NamedTuple
 
-from ..errors import FormatError, LibraryError
-from ..formats import find_brdfs
+from ..errors import HalfwayError, LibraryError
 from ..tasks import THREADS, Engine, Track, run, silent
+from .building import find_materials
 from .compact import CompactLibrary
 from .library import Library
 from .stored import Entry, StoredLibrary
@@ -72,8 +72,8 @@ def _file(entry: Entry) -> str | None:
 def _checksums(source: str) -> dict[str, str]:
     """Of the materials in a file, by name; none where it is no BRDF any more."""
     try:
-        return {item.name: item.sha256 for item in find_brdfs([source])[0]}
-    except FormatError:
+        return {item.name: item.sha256 for item in find_materials([source])[0]}
+    except HalfwayError:
         return {}
 
 
