@@ -131,12 +131,12 @@ def _words(library: str) -> Callable[[bytes, Path], None]:
 
     def read(content: bytes, folder: Path) -> None:
         del folder
-        from halfway.cli.arguments import parse_point, parse_t
+        from halfway.cli.arguments import LONGEST_ROUTE, parse_point, parse_t
         from halfway.space import Recipe
 
         recipe, t, point, *_ = [*content[:200].decode(errors="replace").split("\n"), "", ""]
         Recipe.from_text(library, recipe)
-        assert len(parse_t(t)) <= 10_000_000
+        assert len(parse_t(t)) <= LONGEST_ROUTE + 1
         parse_point(point)
 
     return read

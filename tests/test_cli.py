@@ -260,10 +260,14 @@ def test_report_prints_table_1_and_writes_figures(run, lib, tmp_path):
         (["route", "teflon"], "a route with 1 stop goes nowhere"),
         (["route", "teflon", "chrome", "-n", "1"], "expected -n 2 or more"),
         (["route", "teflon", "chrome", "--t", "0,much"], "--t 'much' is no number and no range"),
+        (["route", "teflon", "chrome", "--t", "0,2"], "t = 2 is off the route"),
+        (["route", "teflon", "chrome", "--t", "0,nan"], "t = nan is off the route"),
+        (["route", "teflon", "chrome", "--t", "inf,0"], "t = inf is off the route"),
         (
-            ["route", "teflon", "chrome", "--t", "0,2", "--space", "linear"],
-            "t = 2 is off the route",
+            ["route", "teflon", "chrome", "--t", "0:1:1e-9"],
+            "a route of 1,000,000,000 materials is too long: expected 100,000 or fewer.",
         ),
+        (["route", "teflon", "chrome", "-n", "1000000000"], "is too long: expected 100,000"),
         (["mix", "teflon=0.5", "-o", "x.binary"], "sum to 0.5: they must sum to 1"),
         (["mix", "teflon=1", "-o", "x.tiff"], "has the suffix '.tiff', which names no format"),
         (["fit", "teflon", "-o", "x.obj"], "names no format of fitted models: expected .mtlx"),
@@ -307,6 +311,12 @@ def test_an_unwritable_folder_is_one_line(run, lib, tmp_path):
 )
 def test_lists_of_t(text, ts):
     assert arguments.parse_t(text) == ts
+
+
+def test_a_mistake_in_a_route_is_told_before_a_space_is_fitted(run, lib, monkeypatch):
+    monkeypatch.setattr("halfway.space.make_space", None)
+    code, _, talk = run("route", lib, "material-0", "material-1", "--t", "0,2")
+    assert (code, "t = 2 is off the route" in talk) == (1, True)
 
 
 def test_the_papers_fine_list_of_t():

@@ -1,6 +1,7 @@
 """What a person writes on the command line, as the package's values."""
 
 import json
+import math
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -16,7 +17,8 @@ if TYPE_CHECKING:
     from ..space import Recipe
 
 DEFAULT_LIBRARY = "builtin:merl-abc"
-LONGEST_LIST = 1_000_000
+LONGEST_ROUTE = 100_000
+"""Materials; their recipes take 1.5 GB of memory while they are written."""
 
 
 class ArgumentError(HalfwayError):
@@ -50,7 +52,8 @@ def parse_t(text: str) -> list[float]:
         match numbers:
             case [t]:
                 ts.append(t)
-            case [start, stop, step] if step > 0 and 0 <= (stop - start) / step < LONGEST_LIST:
+            case [start, stop, step] if 0 < step < math.inf and 0 <= stop - start < math.inf:
+                require_length(len(ts) + (stop - start) / step)
                 n = round((stop - start) / step)
                 ts.extend(np.round(start + step * np.arange(n + 1), 12).tolist())
             case _:
@@ -58,6 +61,15 @@ def parse_t(text: str) -> list[float]:
                     f"--t {part!r} is no number and no range: expected such as 0,0.25,1 or 0.0001:1:0.0001."
                 )
     return ts
+
+
+def require_length(n: float) -> None:
+    """Refuse a route of more materials than memory holds recipes of."""
+    if n > LONGEST_ROUTE:
+        raise ArgumentError(
+            f"a route of {n:,.0f} materials is too long: expected {LONGEST_ROUTE:,} or fewer. Make one for each part of it, "
+            "with --t, in a folder of its own."
+        )
 
 
 def parse_grid(text: str) -> "Grid":

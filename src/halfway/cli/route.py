@@ -37,7 +37,7 @@ def route(
     from halfway.places import to_place
     from halfway.space import LinearSpace, Route, make_space, perceptual
 
-    from .arguments import parse_t, split_library
+    from .arguments import parse_t, require_length, split_library
 
     address, stops = split_library(words)
     library = open_library(address)
@@ -46,7 +46,9 @@ def route(
         library.index(stop)
     straight = Route.through(LinearSpace(library.name, library.names), stops)
     wanted = parse_t(t) if t else None
-    straight.at(np.array(wanted or straight.steps(n)))
+    require_length(n)
+    checked = wanted or straight.steps(n)
+    straight.recipes([np.min(checked), np.max(checked)])
     with engine(scheduler) as place:
         made = make_space(
             space,
