@@ -239,6 +239,23 @@ def test_a_scheduler_without_workers_is_one_line(monkeypatch):
         pass
 
 
+def test_workers_that_stay_away_are_told_of_and_one_that_comes_is_waited_for(monkeypatch):
+    from distributed import Client, LocalCluster
+
+    monkeypatch.setattr("halfway.cluster.LOOK_SECONDS", 0.1)
+    monkeypatch.setattr("halfway.cluster.LONELY_SECONDS", 1.0)
+    with (
+        LocalCluster(n_workers=0, dashboard_address=":0") as empty,
+        Client(empty.scheduler_address, set_as_default=False) as client,
+    ):
+        with pytest.raises(ClusterError, match=r"has had no worker for 1 s: expected some that"):
+            list(run(square, range(1), engine=Cluster(client)))
+        monkeypatch.setattr("halfway.cluster.LONELY_SECONDS", 60.0)
+        results = run(square, range(9), engine=Cluster(client))
+        empty.scale(1)
+        assert list(results) == [x * x for x in range(9)]
+
+
 def test_workers_of_another_version_are_refused(cluster, address, monkeypatch):
     import halfway.cluster
 

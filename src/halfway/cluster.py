@@ -9,11 +9,12 @@ A task whose worker died is done again by another; one that takes four workers w
 
 import asyncio
 import platform
+import time
 import warnings
 from collections import deque
 from collections.abc import Callable, Generator, Iterator, Sequence
 from concurrent.futures import CancelledError, ThreadPoolExecutor
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from importlib.metadata import version
 from typing import Any, TypeVar
@@ -31,7 +32,9 @@ Client = Any
 CONNECTION_SECONDS = 5.0
 """How long to wait for a scheduler, and then for its first worker."""
 LONELY_SECONDS = 60.0
-"""How long to wait, at least, for a worker to come when all have gone."""
+"""How long to wait for a worker to come when all have gone."""
+LOOK_SECONDS = 2.0
+"""How often to look whether there are any, while a result is waited for."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,27 +92,42 @@ class Cluster(Engine):
         from distributed.comm.core import CommClosedError
 
         address = self.client.scheduler.address
-        while True:
-            try:
-                return future.result(timeout=LONELY_SECONDS)
-            except TimeoutError:
-                if future.done():
-                    raise  # the task's own
-                if not self.client.scheduler_info(n_workers=0)["n_workers"]:
-                    raise ClusterError(
-                        f"{address} has had no worker for a minute: expected some that come back. Start workers, and "
-                        "run the same command again."
-                    ) from None
-            except KilledWorker as error:
+        try:
+            self._wait(future)
+            return future.result()
+        except KilledWorker as error:
+            raise ClusterError(
+                f"{address} lost {error.allowed_failures + 1} workers on one task: expected none to die. See their "
+                "logs; most often the memory of a worker is too small."
+            ) from None
+        except (CancelledError, ClosedClientError, CommClosedError):
+            raise ClusterError(
+                f"{address} is gone: the scheduler was there when the work began. Start it, and run the same "
+                "command again."
+            ) from None
+
+    def _wait(self, future: Any) -> None:
+        """Until a task is done, in whatever way."""
+        from distributed import wait
+
+        seen = time.monotonic()
+        while not future.done():
+            with suppress(TimeoutError), self.client.as_current():
+                wait(future, timeout=LOOK_SECONDS)
+            now = time.monotonic()
+            if self._has_workers():
+                seen = now
+            elif now - seen > LONELY_SECONDS:
                 raise ClusterError(
-                    f"{address} lost {error.allowed_failures + 1} workers on one task: expected none to die. See their "
-                    "logs; most often the memory of a worker is too small."
-                ) from None
-            except (CancelledError, ClosedClientError, CommClosedError):
-                raise ClusterError(
-                    f"{address} is gone: the scheduler was there when the work began. Start it, and run the same "
-                    "command again."
-                ) from None
+                    f"{self.client.scheduler.address} has had no worker for {now - seen:.0f} s: expected some that "
+                    "come back. Start workers, and run the same command again."
+                )
+
+    def _has_workers(self) -> bool:
+        # Of a scheduler that is gone, the tasks themselves tell.
+        with suppress(OSError):
+            return self.client.scheduler_info(n_workers=0)["n_workers"] > 0
+        return True
 
 
 def _connect(address: str) -> Client:
