@@ -14,8 +14,9 @@ from strategies import random_tables
 from halfway import TabularBrdf
 from halfway.cli import arguments, console
 from halfway.cli import main as halfway
+from halfway.cli.library import skipped_lines
 from halfway.errors import HalfwayError
-from halfway.formats import read_merl, write_merl
+from halfway.formats import Skipped, read_merl, write_merl
 from halfway.halfdiff import Grid
 
 GRID = Grid.merl(4, 3, 5)
@@ -96,6 +97,15 @@ def test_build_says_what_it_skipped_and_what_is_next(run):
     assert code == 0
     assert "skipped measured/README: is text" in talk
     assert "again.brdflib: 7 materials on 4 x 3 x 5, 1 skipped. Next: halfway report" in talk
+
+
+def test_many_files_that_are_skipped_for_one_reason_are_one_line():
+    text = [Skipped(f"notes/{i}", "is text") for i in range(1200)]
+    lines = skipped_lines([*text[:600], Skipped("a.zip", "is no zip"), *text[600:]])
+    assert lines == [
+        "skipped 1,200, notes/0 to notes/1199: is text",
+        "skipped a.zip: is no zip",
+    ]
 
 
 def test_info_is_for_people_and_programs(run, lib):

@@ -1,13 +1,19 @@
 """``halfway library``: build and look at libraries."""
 
 import json
-from typing import Annotated, Any
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from .compact import compact, compact_lines
 from .console import engine, say, track
 from .options import AsJson, Scheduler
+
+if TYPE_CHECKING:
+    from ..formats import Skipped
+
+FEW = 3
 
 app = typer.Typer(help="Build a library of materials, or see what is in one.", no_args_is_help=True)
 
@@ -56,13 +62,25 @@ def build(
             track=track,
             engine=where,
         )
-    for item in built.skipped:
-        say(f"skipped {item.path}: {item.reason}")
+    for line in skipped_lines(built.skipped):
+        say(line)
     say(
         f"{output}: {len(built.library)} materials on {built.library.grid}"
         + (f", {len(built.skipped)} skipped" if built.skipped else "")
         + f". Next: halfway report {output} -o report"
     )
+
+
+def skipped_lines(skipped: "Sequence[Skipped]") -> list[str]:
+    """What was skipped and why: a line for each reason, and for each file where it is the reason of few."""
+    lines: list[str] = []
+    for reason in dict.fromkeys(item.reason for item in skipped):
+        paths = [item.path for item in skipped if item.reason == reason]
+        if len(paths) <= FEW:
+            lines += [f"skipped {path}: {reason}" for path in paths]
+        else:
+            lines.append(f"skipped {len(paths):,}, {paths[0]} to {paths[-1]}: {reason}")
+    return lines
 
 
 app.command()(compact)

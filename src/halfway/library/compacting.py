@@ -60,9 +60,10 @@ def compact_library(
         )
     rows = CodedRows(library, coding)
     if not 1 <= n_components < len(rows):
+        advice = f"Choose -k 1 to {len(rows) - 1}." if len(rows) > 1 else "Take the library itself."
         raise LibraryError(
             f"{library.name} cannot be kept in {n_components} components: it has {len(rows)} rows, and fewer are "
-            f"expected, at least 1. Choose -k 1 to {len(rows) - 1}."
+            f"expected, at least 1. {advice}"
         )
     pca = Pca.fit(rows, n_components=n_components, cache=cache, track=track, engine=engine)
     arrays = _arrays(rows, pca, track, engine)
