@@ -125,6 +125,15 @@ def test_a_foreign_recipes_json_is_not_touched(route, small_library, tmp_path):
     assert (tmp_path / "recipes.json").read_text() == '["lasagne"]'
 
 
+def test_a_library_s_folder_stays_its_own(route, small_library, tmp_path):
+    write_merl(tmp_path / "one.binary", small_library.brdf("material-0"))
+    library = build_library([tmp_path / "one.binary"], tmp_path / "one.brdflib").library
+    before = sorted(library.path.iterdir())
+    with pytest.raises(OutputError, match=r"one\.brdflib holds a library: expected a folder"):
+        write_route(library.path, route, route.steps(3), small_library)
+    assert sorted(library.path.iterdir()) == before
+
+
 def test_a_folder_that_is_a_file_gets_one_line(route, small_library, tmp_path):
     (tmp_path / "route").write_text("")
     with pytest.raises(OutputError, match="part of its path is a file, not a folder"):

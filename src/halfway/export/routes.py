@@ -26,6 +26,7 @@ from ..files import replacing
 from ..formats import write_brdf
 from ..formats.content import merl_bytes
 from ..library import Library
+from ..library.stored import DESCRIPTION
 from ..places import Place, absolute, name_in
 from ..space import Mixer, Recipe, Route
 from ..tasks import THREADS, Engine, Track, run, silent
@@ -65,9 +66,14 @@ def write_route(
     Raises
     ------
     OutputError
-        When the folder cannot be written or has no room, another run works in it, or a file in it is in the way.
+        When the folder cannot be written or has no room, another run works in it, a file in it is in the way, or it is
+        a library's.
     """
     folder = absolute(folder)  # workers may be elsewhere
+    if (folder / DESCRIPTION).exists():
+        raise OutputError(
+            f"{folder} holds a library: expected a folder of the route's own. Choose another with -o."
+        )
     document = {
         **route.to_json(ts),
         "library_address": library.address,
