@@ -7,6 +7,7 @@ import shutil
 import threading
 from base64 import b64decode
 from collections.abc import Generator, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 
 import numpy as np
@@ -56,6 +57,13 @@ def library() -> ProceduralLibrary:
 
 @pytest.fixture(scope="session")
 def address(library: ProceduralLibrary) -> Generator[str]:
+    with served(library) as address:
+        yield address
+
+
+@contextmanager
+def served(library: ProceduralLibrary) -> Generator[str]:
+    """The address of an explorer of ``library``."""
     with listen(0) as listener:
         config = uvicorn.Config(create_app(library, page=Files.load()), log_level="error")
         server = uvicorn.Server(config)

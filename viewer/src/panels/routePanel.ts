@@ -105,7 +105,7 @@ function chip({ store, actions, thumbnails }: Context, name: string, i: number):
     "button",
     {
       type: "button",
-      title: "The next material you choose goes here. Drag, or Alt and an arrow, moves it",
+      title: `${name}. The next material you choose goes here. Drag, or Alt and an arrow, moves it`,
       "aria-pressed": i === slot ? "true" : "false",
     },
     {
@@ -117,7 +117,7 @@ function chip({ store, actions, thumbnails }: Context, name: string, i: number):
       },
     },
     thumbnails.canvas(name),
-    name,
+    el("span.name", {}, {}, name),
   );
   const element = el(
     "span.chip",
