@@ -99,6 +99,16 @@ def test_a_reload_comes_back_to_the_same_place(explorer: Explorer) -> None:
     assert explorer.page.locator("[data-value=teapot]").get_attribute("aria-pressed") == "true"
 
 
+def test_another_link_in_the_same_window_is_followed(explorer: Explorer) -> None:
+    explorer.open("#space=linear&stops=chrome,teflon&t=0.75&light=points")
+    explorer.page.wait_for_selector(".recipe .name")
+    explorer.page.evaluate("location.hash = '#space=linear&stops=cherry-235,gold-paint&t=0.5'")
+    explorer.wait_for_recipe(["cherry-235", "gold-paint"])
+    assert explorer.stops == ["cherry-235", "gold-paint"]
+    explorer.page.go_back()
+    explorer.wait_for_recipe(["teflon", "chrome"])
+
+
 def test_the_downloaded_merl_file_is_the_written_one(
     explorer: Explorer, library: ProceduralLibrary, tmp_path: Path
 ) -> None:

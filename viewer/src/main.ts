@@ -4,6 +4,7 @@ import { Problem } from "./api/client";
 import { files } from "./api/files";
 import { http } from "./api/http";
 import { mount } from "./mount";
+import { fromHash } from "./permalink";
 import type { Theme } from "./state";
 import "./styles/window.css";
 
@@ -19,7 +20,12 @@ mount(document.querySelector<HTMLElement>("#app")!, data ? files(data) : http, {
   theme: (localStorage.getItem(THEME) ?? "auto") as Theme,
   onTheme: (theme) => localStorage.setItem(THEME, theme),
   keys: document,
-}).catch((error: unknown) => {
-  // What a person can act on is on the page already.
-  if (!(error instanceof Problem)) throw error;
-});
+}).then(
+  // Another link in the address bar of the same page loads nothing anew.
+  ({ store, actions }) =>
+    addEventListener("hashchange", () => actions.visit(fromHash(location.hash, store.get().library))),
+  (error: unknown) => {
+    // What a person can act on is on the page already.
+    if (!(error instanceof Problem)) throw error;
+  },
+);

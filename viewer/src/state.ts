@@ -203,6 +203,14 @@ export class Actions {
     this.follow(way, [...past.slice(1 - MAX_PAST), this.way()], [], Math.min(slot, way.stops.length - 1));
   };
 
+  /** Go where a link leads; what it does not say stays, but for a free place. */
+  visit = (linked: Partial<Linked>): void => {
+    const { space, pace, stops, point } = { ...this.store.get(), point: null, ...linked };
+    this.go({ space, pace, stops, point });
+    this.store.set({ ...linked, slot: stops.length - 1, goal: null, playing: false });
+    if (point === null) this.setT(this.store.get().t);
+  };
+
   undo = (): void => {
     const { past, future } = this.store.get();
     const way = past.at(-1);

@@ -88,6 +88,27 @@ test("a link comes back to the same place", () => {
   expect(fromHash(toHash(linked), LIBRARY)).toEqual(linked);
 });
 
+test("a link is visited, and undo leads back", () => {
+  const { store, actions } = page();
+  const { route } = golden<{ route: RouteView }>("recipe");
+  actions.setRoute(route);
+  actions.goTo([0.1]);
+  actions.visit({ stops: ["c", "d", "a"], t: 0.25, light: "points" });
+  expect(store.get()).toMatchObject({
+    stops: ["c", "d", "a"],
+    slot: 2,
+    t: 0.25,
+    point: null,
+    light: "points",
+  });
+  actions.undo();
+  expect(store.get()).toMatchObject({ stops: ["a", "b"], point: [0.1] });
+  // On the same route no answer comes that would say the recipe.
+  actions.undo();
+  actions.visit({ t: 0.75 });
+  expect(store.get().recipe).toEqual(recipeAt(route, 0.75));
+});
+
 test("what a link says that makes no sense is left out", () => {
   const hash = "#space=cubic&stops=a,zz&t=abc&shape=cube&exposure=99&orbit=1,2&light=points";
   expect(fromHash(hash, LIBRARY)).toEqual({ light: "points", exposure: 4 });
