@@ -178,6 +178,37 @@ def test_the_present_material_is_dragged_through_the_space(explorer: Explorer) -
     explorer.page.get_by_role("button", name="Back to route").wait_for()
 
 
+def test_what_is_let_go_of_beside_the_space_is_let_go_of(explorer: Explorer) -> None:
+    explorer.page.set_viewport_size({"width": 1440, "height": 900})
+    explorer.open("#space=anchored&stops=cherry-235,teflon&t=0.5&light=points")
+    explorer.page.get_by_role("button", name="Body colour").click()
+    marker = explorer.page.locator(".here").bounding_box()
+    assert marker is not None
+    x, y = marker["x"] + marker["width"] / 2, marker["y"] + marker["height"] / 2
+    explorer.page.mouse.move(x, y)
+    explorer.page.mouse.down()
+    explorer.page.mouse.move(x, y - 30, steps=2)
+    explorer.page.mouse.move(x, 10)
+    explorer.page.mouse.up()
+    back = explorer.page.get_by_role("button", name="Back to route")
+    back.click()
+    back.wait_for(state="hidden")
+    explorer.page.mouse.move(x, y + 60, steps=5)
+    # A move would be in the link after 150 ms.
+    explorer.page.wait_for_timeout(400)
+    assert "point=" not in explorer.page.evaluate("location.hash")
+
+
+def test_a_stop_that_is_removed_is_pointed_at_no_more(explorer: Explorer) -> None:
+    explorer.open("#space=linear&stops=cherry-235,teflon,gold-paint&light=points")
+    explorer.page.wait_for_selector(".here")
+    explorer.page.get_by_label("Remove teflon").hover()
+    assert explorer.page.locator(".label.hovered").inner_text() == "teflon"
+    explorer.page.get_by_label("Remove teflon").click()
+    explorer.page.mouse.move(5, 5)
+    explorer.page.locator(".label.hovered").wait_for(state="detached")
+
+
 def test_an_environment_is_chosen(explorer: Explorer) -> None:
     explorer.page.set_viewport_size({"width": 460, "height": 560})
     explorer.open(PAIR + "&t=0&light=points")

@@ -189,7 +189,9 @@ export class Actions {
     const [moved] = next.splice(from, 1);
     if (moved === undefined || to < 0 || to > next.length) return;
     next.splice(to, 0, moved);
-    if (next.every((name, j) => name !== next[j - 1])) this.go({ stops: next });
+    if (next.some((name, j) => name === next[j - 1])) return;
+    this.go({ stops: next });
+    this.store.set({ slot: to });
   };
 
   setSpace = (space: string): void => this.go({ space });

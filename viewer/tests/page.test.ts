@@ -155,6 +155,7 @@ test("stops change their order", () => {
   const { store, actions } = page(["a", "b", "c"]);
   actions.moveStop(2, 0);
   expect(store.get().stops).toEqual(["c", "a", "b"]);
+  expect(store.get().slot).toBe(0);
   actions.moveStop(0, -1);
   expect(store.get().stops).toEqual(["c", "a", "b"]);
 });

@@ -54,10 +54,22 @@ function playButton({ store }: Context): HTMLElement {
 
 function stops(context: Context): HTMLElement {
   const { store, actions } = context;
-  const list = el("ol.stops");
+  // Of the list, not of each stop: one that is taken away is never left.
+  const list = el(
+    "ol.stops",
+    {},
+    {
+      onpointerover: ({ target }) => {
+        const stop = (target as Element).closest<HTMLElement>("[data-stop]");
+        store.set({ hovered: stop?.dataset.stop ?? null });
+      },
+      onpointerleave: () => store.set({ hovered: null }),
+    },
+  );
   store.watch(
     ({ stops, slot }) => [stops, slot] as const,
     ([stops, slot]) => {
+      const focused = list.matches(":focus-within");
       list.replaceChildren(
         ...stops.map((name, i) =>
           el(
@@ -93,6 +105,8 @@ function stops(context: Context): HTMLElement {
               iconButton("plus", "Add a stop", () => actions.selectSlot(stops.length)),
             ),
       );
+      // What had the focus is gone.
+      if (focused) list.querySelector<HTMLElement>("[data-selected=true] > button")?.focus();
     },
   );
   return list;
@@ -135,8 +149,6 @@ function chip({ store, actions, thumbnails }: Context, name: string, i: number):
         const from = Number.parseInt(event.dataTransfer?.getData("text/x-halfway-stop") ?? "", 10);
         if (Number.isFinite(from)) actions.moveStop(from, i);
       },
-      onpointerenter: () => store.set({ hovered: name }),
-      onpointerleave: () => store.set({ hovered: null }),
     },
     select,
     remove,

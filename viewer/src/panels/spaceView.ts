@@ -199,6 +199,9 @@ export function spaceView(context: Context): HTMLElement {
       return grabbed;
     },
     drag,
+    release: () => {
+      cloud.controls.enabled = true;
+    },
     leave: () => store.set({ hovered: null }),
     click: (x, y) => {
       const i = cloud.pick(x, y);
@@ -226,9 +229,13 @@ interface Pointer {
   /** True when what is under the pointer is to be dragged. */
   readonly grab: (x: number, y: number) => boolean;
   readonly drag: (x: number, y: number) => void;
+  readonly release: () => void;
 }
 
-function listenToPointer(canvas: HTMLCanvasElement, { hover, leave, click, grab, drag }: Pointer): void {
+function listenToPointer(
+  canvas: HTMLCanvasElement,
+  { hover, leave, click, grab, drag, release }: Pointer,
+): void {
   let down: { x: number; y: number } | null = null;
   let dragging = false;
   canvas.addEventListener("pointermove", ({ offsetX, offsetY, buttons }) => {
@@ -239,17 +246,24 @@ function listenToPointer(canvas: HTMLCanvasElement, { hover, leave, click, grab,
   // Before the controls hear of it, so that they can be told to stay.
   canvas.addEventListener(
     "pointerdown",
-    ({ offsetX, offsetY, button }) => {
+    ({ offsetX, offsetY, button, pointerId }) => {
       down = button === 0 ? { x: offsetX, y: offsetY } : null;
       dragging = down !== null && grab(offsetX, offsetY);
+      // Let go of beside the panel, it is let go of all the same.
+      if (dragging) canvas.setPointerCapture(pointerId);
     },
     { capture: true },
   );
   canvas.addEventListener("pointerup", ({ offsetX, offsetY }) => {
     if (!dragging && down && Math.hypot(offsetX - down.x, offsetY - down.y) < STILL) click(offsetX, offsetY);
+    end();
+  });
+  const end = () => {
+    if (dragging) release();
     down = null;
     dragging = false;
-  });
+  };
+  canvas.addEventListener("pointercancel", end);
 }
 
 /** Each two of them. */
