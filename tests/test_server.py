@@ -120,6 +120,16 @@ def test_every_space_can_be_looked_at(
         assert {i for edge in embedding["edges"] for i in edge} <= set(range(len(small_library)))
 
 
+def test_what_is_furthest_in_any_direction_is_a_corner_of_the_hull(client: TestClient) -> None:
+    rng = np.random.default_rng(5)
+    for space in ("anchored", "paper"):
+        for embedding in client.get(f"/api/spaces/{space}").json()["embeddings"]:
+            points = np.array(embedding["points"])
+            directions = rng.normal(size=(points.shape[1], 200)) / np.ptp(points, axis=0)[:, None]
+            corners = {i for edge in embedding["edges"] for i in edge}
+            assert set((points @ directions).argmax(axis=0)) <= corners
+
+
 def test_the_place_of_a_material_is_that_material(client: TestClient) -> None:
     for space in ("anchored", "paper"):
         embeddings = client.get(f"/api/spaces/{space}").json()["embeddings"]

@@ -202,3 +202,23 @@ def test_few_tables_are_asked_for_at_a_time(explorer: Explorer) -> None:
     explorer.wait_until_settled()
     # What is shown, at most four that come next, and the other stop beside t, guessed before the route was known.
     assert len(set(asked)) <= len(explorer.recipe) + 4 + 1
+
+
+def test_the_space_shows_where_the_route_crosses_into_another_simplex(explorer: Explorer) -> None:
+    explorer.page.set_viewport_size(SMALL)
+    crossings: list[float] = []
+    explorer.page.route(
+        "**/api/route*",
+        lambda route: route.fulfill(json={**route.fetch().json(), "crossings": crossings}),
+    )
+    without = picture_of_the_space(explorer)
+    crossings += [0.3, 0.6]
+    assert picture_of_the_space(explorer) != without
+
+
+def picture_of_the_space(explorer: Explorer) -> bytes:
+    explorer.open("#space=linear&stops=cherry-235,teflon&t=0&light=points")
+    explorer.page.wait_for_selector(".here")
+    # It is drawn every 60 ms.
+    explorer.page.wait_for_timeout(200)
+    return explorer.page.locator(".cloud").screenshot()

@@ -7,6 +7,7 @@ decades, and a plain plot is one heap with a few points far away.
 from typing import TypeAlias
 
 import numpy as np
+from scipy.spatial import ConvexHull, QhullError
 
 from ..library import Pca
 from ..space import AnchoredSpace, PaperSpace, Space
@@ -33,25 +34,36 @@ def look_at(space: Space, pca: Pca) -> SpaceView:
                 for channel, triangulation in zip(CHANNELS, space.triangulations, strict=True)
             ]
         case AnchoredSpace():
-            embeddings = [_joint("Scores", space.points[:, :-3]), _body(space)]
+            scores, body = space.points[:, :-3][:, :N_AXES], space.points[:, -3:]
+            embeddings = [
+                _joint("Scores", _scores(scores), scores, _hull(scores)),
+                _joint("Body colour", list(space.coordinates[-3:]), body, _hull(body)),
+            ]
         case _:
-            embeddings = [_joint("Scores", pca.joint_scores(N_AXES))]
+            scores = pca.joint_scores(N_AXES)
+            # Nothing of it is a place to go to.
+            embeddings = [_joint("Scores", _scores(scores), scores, [])]
     return SpaceView(name=space.name, embeddings=embeddings)
 
 
-def _joint(name: str, scores: np.ndarray) -> Embedding:
-    points = scores[:, :N_AXES].tolist()
-    return Embedding(name=name, channel="all", axes=_scores(scores), points=points, edges=[])
-
-
-def _body(space: AnchoredSpace) -> Embedding:
-    axes = list(space.coordinates[-3:])
-    points = space.points[:, -3:].tolist()
-    return Embedding(name="Body colour", channel="all", axes=axes, points=points, edges=[])
+def _joint(name: str, axes: list[str], points: np.ndarray, edges: Edges) -> Embedding:
+    return Embedding(name=name, channel="all", axes=axes, points=points.tolist(), edges=edges)
 
 
 def _scores(points: np.ndarray) -> list[str]:
     return [f"score {i + 1}" for i in range(min(N_AXES, points.shape[1]))]
+
+
+def _hull(points: np.ndarray) -> Edges:
+    """The edges of the hull, beyond which there is no mix; none where the points are flat."""
+    extents = np.ptp(points, axis=0)
+    if points.shape[1] < 2 or not extents.all():
+        return []
+    try:
+        # Coordinates differ by orders of magnitude, and Qhull's tolerances are absolute.
+        return _edges(ConvexHull(points / extents).simplices)
+    except QhullError:
+        return []
 
 
 def _edges(simplices: np.ndarray) -> Edges:

@@ -93,7 +93,7 @@ class Embedding(Model):
     points: list[list[float]]
     """In the library's order; the point of a mix is the mix of the points."""
     edges: list[tuple[int, int]]
-    """Of the triangulation; empty where the space has none to show."""
+    """Of the triangulation, or of the hull where the triangulation has more dimensions; empty where there is neither."""
 
 
 class SpaceView(Model):

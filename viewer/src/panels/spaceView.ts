@@ -92,7 +92,10 @@ export function spaceView(context: Context): HTMLElement {
     if (route === null || placement === null) return;
     const even = Array.from({ length: ROUTE_POINTS + 1 }, (_, i) => i / ROUTE_POINTS);
     const ts = [...new Set([...route.knots, ...even])].sort((a, b) => a - b);
-    cloud.setRoute(ts.map((t) => placement.place(recipeAt(route, t))));
+    const [line, crossings] = [ts, route.crossings].map((all) =>
+      all.map((t) => placement.place(recipeAt(route, t))),
+    );
+    cloud.setRoute(line!, crossings!);
     draw();
   };
   const place = () => {

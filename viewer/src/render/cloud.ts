@@ -11,6 +11,7 @@ import {
   LineSegments,
   PerspectiveCamera,
   Points,
+  PointsMaterial,
   RawShaderMaterial,
   RGBAFormat,
   Scene,
@@ -66,6 +67,11 @@ export class Cloud {
       opacity: 0.9,
     }),
   );
+  /** Where the route goes from one simplex into the next. */
+  private readonly crossings = new Points(
+    new BufferGeometry(),
+    new PointsMaterial({ sizeAttenuation: false, depthTest: false, transparent: true }),
+  );
   private readonly size = new Vector2(1, 1);
   private ratio = 1;
   /** Spheres of many materials are smaller, so that as much is seen between them. */
@@ -117,12 +123,14 @@ export class Cloud {
       ),
     );
     this.points.geometry.setAttribute("look", new BufferAttribute(new Float32Array(2 * names.length), 2));
-    for (const object of [this.points, this.edges, this.simplex, this.route]) object.frustumCulled = false;
+    for (const object of [this.points, this.edges, this.simplex, this.route, this.crossings])
+      object.frustumCulled = false;
     this.edges.renderOrder = -2;
     this.simplex.renderOrder = -1;
     this.route.renderOrder = 1;
-    this.scene.add(this.edges, this.simplex, this.route, this.points);
-    this.route.visible = false;
+    this.crossings.renderOrder = 2;
+    this.scene.add(this.edges, this.simplex, this.route, this.crossings, this.points);
+    this.route.visible = this.crossings.visible = false;
   }
 
   /** Put the materials where `placement` says, with the edges of a triangulation between them. */
@@ -146,7 +154,10 @@ export class Cloud {
     lines.geometry = segments(pairs);
   }
 
-  setRoute(points: readonly Vector3[]): void {
+  setRoute(points: readonly Vector3[], crossings: readonly Vector3[]): void {
+    this.crossings.visible = crossings.length > 0;
+    this.crossings.geometry.dispose();
+    this.crossings.geometry = new BufferGeometry().setFromPoints([...crossings]);
     this.route.visible = points.length > 1;
     if (points.length < 2) return;
     this.route.geometry.dispose();
@@ -166,6 +177,7 @@ export class Cloud {
     this.edges.material.color.set(text);
     this.simplex.material.color.set(text);
     this.route.material.color.set(accent);
+    this.crossings.material.color.set(text);
     const { uStop, uHovered, uGround } = this.points.material.uniforms;
     for (const [uniform, css] of [
       [uStop, accent],
@@ -192,6 +204,7 @@ export class Cloud {
     const room = Math.min(1.5, Math.max(0.75, Math.min(width, height) / ratio / 480));
     this.points.material.uniforms.uPixels!.value = PIXELS * ratio * room * this.crowd;
     this.route.material.linewidth = 2.5 * ratio;
+    this.crossings.material.size = 3.5 * ratio;
     this.route.material.resolution.copy(this.size);
   }
 
