@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 from conftest import Explorer  # pyright: ignore[reportMissingImports]
-from playwright.sync_api import Browser
+from PIL import Image
 
 from halfway.formats import write_merl
 from halfway.library import ProceduralLibrary
@@ -264,20 +264,40 @@ def test_a_server_that_went_away_is_said(explorer: Explorer) -> None:
     assert "halfway view" in explorer.page.locator(".problem").inner_text()
 
 
-def test_without_webgl_a_small_picture_stands_in(browser: Browser, address: str) -> None:
-    context = browser.new_context()
-    context.add_init_script(
+@pytest.fixture
+def without_webgl(explorer: Explorer) -> Explorer:
+    explorer.expected = "THREE.WebGLRenderer"
+    explorer.page.add_init_script(
         "const get = HTMLCanvasElement.prototype.getContext;"
         "HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {"
         " return kind.startsWith('webgl') ? null : get.call(this, kind, ...rest); };"
     )
-    page = context.new_page()
-    page.goto(address + PAIR)
+    return explorer
+
+
+def test_without_webgl_a_small_picture_stands_in(without_webgl: Explorer) -> None:
+    page = without_webgl.page
+    without_webgl.open(PAIR + "&compare=paper")
     page.wait_for_selector(".material[data-ready=still]")
     assert "stands in" in page.locator(".material .reason").inner_text()
+    # There is one picture, and nothing beside it.
+    assert page.locator(".split").count() == 0
     page.locator("[name=t]").fill("0.9")
     assert page.locator(".recipe .share").all_text_contents() == ["90 %", "10 %"]
-    context.close()
+    with page.expect_download() as picture_file:
+        page.get_by_role("button", name="Picture").click()
+    with Image.open(picture_file.value.path()) as saved:
+        assert saved.getextrema() != ((0, 0),) * 4
+
+
+def test_without_webgl_the_materials_are_chosen_side_by_side(without_webgl: Explorer) -> None:
+    without_webgl.open(PAIR)
+    materials = without_webgl.page.get_by_role("group", name="Materials")
+    materials.get_by_role("button", name="teflon").click()
+    assert without_webgl.stops == ["cherry-235", "teflon"]
+    assert materials.locator("[aria-pressed=true]").count() == 2
+    without_webgl.page.locator("[name=search]").fill("gold")
+    assert materials.get_by_role("button").count() == 1
 
 
 def picture(explorer: Explorer) -> str:

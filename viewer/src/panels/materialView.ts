@@ -296,7 +296,7 @@ function stillPictures({ store, tables, thumbnails }: Context, panel: HTMLElemen
     canvas,
     el("p.reason", { role: "status" }, {}, `A small picture stands in for the live one. ${reason}`),
   );
-  panel.querySelector(".overlay.bottom")?.remove();
+  for (const part of panel.querySelectorAll(".overlay.bottom, .split")) part.remove();
   tables.onChange = (problem) => {
     store.set({ arrived: store.get().arrived + 1, ...(problem !== null && { problem }) });
   };

@@ -169,7 +169,7 @@ function exports({ root, client, store }: Context): HTMLElement {
     { type: "button", title: "The picture, with a transparent background" },
     {
       onclick: () => {
-        const canvas = root.querySelector<HTMLCanvasElement>(".live");
+        const canvas = root.querySelector<HTMLCanvasElement>(".material .view:not([hidden])");
         canvas?.toBlob((blob) => blob && download(blob, `${title()}.png`));
       },
     },

@@ -9,6 +9,7 @@ import { Appearance } from "../render/appearance";
 import { Cloud } from "../render/cloud";
 import { Scores } from "../render/display";
 import { paced } from "../render/loop";
+import { shelf } from "./shelf";
 
 const APPEARANCE = "Looks";
 /** Milliseconds between drawings: what moves is the material, and this stands beside it. */
@@ -50,7 +51,13 @@ export function spaceView(context: Context): HTMLElement {
   } catch {
     canvas.hidden = true;
     panel.append(
-      el("p.reason", { role: "status" }, {}, "This view needs WebGL2. The search finds every material."),
+      shelf(context),
+      el(
+        "p.reason",
+        { role: "status" },
+        {},
+        "The space itself needs WebGL2, which this browser does not have.",
+      ),
     );
     return panel;
   }
