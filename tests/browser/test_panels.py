@@ -1,10 +1,12 @@
 """What the panels show: numbers of the BRDF, a person's own mesh, what is compared, places outside the hull."""
 
 import json
+from io import BytesIO
 
 import numpy as np
 import pytest
 from conftest import Explorer  # pyright: ignore[reportMissingImports]
+from PIL import Image
 from playwright.sync_api import Request, Route
 
 from halfway.brdf import directional_albedo
@@ -214,6 +216,33 @@ def test_the_space_shows_where_the_route_crosses_into_another_simplex(explorer: 
     without = picture_of_the_space(explorer)
     crossings += [0.3, 0.6]
     assert picture_of_the_space(explorer) != without
+
+
+def test_pictures_come_again_when_the_card_was_lost(explorer: Explorer) -> None:
+    explorer.page.set_viewport_size(SMALL)
+    explorer.open("#space=linear&stops=cherry-235,teflon&t=0&light=points")
+    explorer.wait_until_settled()
+    before = explorer.drawn()
+    space = pixels(explorer.page.locator(".cloud").screenshot())
+    explorer.page.evaluate(
+        """async () => {
+          const lose = [".live", ".cloud"].map((name) =>
+            document.querySelector(name).getContext("webgl2").getExtension("WEBGL_lose_context"));
+          for (const each of lose) each.loseContext();
+          await new Promise((resolve) => setTimeout(resolve, 100));
+          for (const each of lose) each.restoreContext();
+        }"""
+    )
+    explorer.page.wait_for_selector(".material[data-settled=false]")
+    explorer.wait_until_settled()
+    np.testing.assert_array_equal(explorer.drawn(), before)
+    # Edges may be smoothed otherwise by a level or two.
+    again = pixels(explorer.page.locator(".cloud").screenshot())
+    assert np.abs(again - space).max() < 8
+
+
+def pixels(png: bytes) -> np.ndarray:
+    return np.asarray(Image.open(BytesIO(png)).convert("RGB"), float)
 
 
 def picture_of_the_space(explorer: Explorer) -> bytes:

@@ -235,6 +235,11 @@ function paint(
     store.set({ arrived: store.get().arrived + 1 });
     loop.goOn();
   };
+  // All pictures went with the context, and begin again.
+  canvas.addEventListener("webglcontextrestored", () => {
+    look();
+    loop.run();
+  });
   orbitOnDrag(context, canvas);
 }
 

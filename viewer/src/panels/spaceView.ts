@@ -197,6 +197,7 @@ export function spaceView(context: Context): HTMLElement {
     const coordinates = cloud.placement.coordinatesAt(cloud.unproject(x, y, here3d));
     actions.goTo(withCoordinates(view, point ?? pointOf(view, names, recipe), current.name, coordinates));
   };
+  canvas.addEventListener("webglcontextrestored", () => draw());
   listenToPointer(canvas, {
     hover: (x, y) => {
       const i = cloud.pick(x, y);
