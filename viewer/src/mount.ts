@@ -88,8 +88,8 @@ function show(
       head(context),
       spaceView(context),
       materialView(context),
-      el("div.side", {}, {}, recipePanel(context), brdfPanel(context)),
       routePanel(context),
+      el("div.side", {}, {}, recipePanel(context), brdfPanel(context)),
     ),
   );
   fetchRoutes(context);

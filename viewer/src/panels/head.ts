@@ -91,6 +91,9 @@ function linkButton(address: () => string): HTMLElement {
   return button;
 }
 
+/** So many are listed; more is typed sooner than looked through. */
+const MOST = 40;
+
 function search({ store, actions, thumbnails }: Context): HTMLElement {
   const names = store.get().library.materials.map(({ name }) => name);
   // Another explorer of the same document has another list.
@@ -134,10 +137,11 @@ function search({ store, actions, thumbnails }: Context): HTMLElement {
     store.set({ found: words.length ? matches : null });
     list.hidden = words.length === 0;
     input.setAttribute("aria-expanded", String(!list.hidden));
-    const items = matches.slice(0, 40).map((name) =>
+    matches = matches.slice(0, MOST);
+    const items = matches.map((name, i) =>
       el(
         "li",
-        { role: "option" },
+        { role: "option", id: `${id}-${i}` },
         {
           onpointerdown: (event) => {
             event.preventDefault();
@@ -157,6 +161,7 @@ function search({ store, actions, thumbnails }: Context): HTMLElement {
       item.setAttribute("aria-selected", String(j === selected));
       if (j === selected) item.scrollIntoView({ block: "nearest" });
     });
+    input.setAttribute("aria-activedescendant", matches.length ? `${id}-${selected}` : "");
     if (!list.hidden) store.set({ hovered: matches[selected] ?? null });
   };
   const close = () => {

@@ -45,7 +45,7 @@ export function recipePanel(context: Context): HTMLElement {
 /** The body colour of the present material, to be changed: everything else stays as near as a mix can be. */
 function adjustment({ store, actions }: Context): HTMLElement {
   const names = store.get().library.materials.map(({ name }) => name);
-  const note = el("span.note");
+  const note = el("span.note", { role: "status" });
   const input = el(
     "input",
     { type: "color", "aria-label": "Body colour" },
