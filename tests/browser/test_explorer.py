@@ -240,7 +240,7 @@ def test_the_theme_changes_and_stays(explorer: Explorer) -> None:
     assert explorer.page.locator("#app").get_attribute("data-theme") == "light"
 
 
-@pytest.mark.parametrize("width", [800, 1440, 2560])
+@pytest.mark.parametrize("width", [320, 640, 800, 1440, 2560])
 def test_nothing_sticks_out(explorer: Explorer, width: int) -> None:
     explorer.page.set_viewport_size({"width": width, "height": 900})
     explorer.open(PAIR + "&light=points")
