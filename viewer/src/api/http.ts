@@ -25,6 +25,15 @@ async function fetched(path: string, options: RequestInit): Promise<Response> {
 
 /** The body, its arrival told as it comes where its length is known. */
 export async function read(answer: Response, onProgress?: (share: number) => void): Promise<ArrayBuffer> {
+  try {
+    return await body(answer, onProgress);
+  } catch (error) {
+    if (error instanceof DOMException && error.name === "AbortError") throw error;
+    throw new Problem("An answer broke off on its way: reload the page to ask again.");
+  }
+}
+
+async function body(answer: Response, onProgress?: (share: number) => void): Promise<ArrayBuffer> {
   const length = Number(answer.headers.get("Content-Length"));
   if (!onProgress || !length || answer.headers.get("Content-Encoding") || answer.body === null) {
     return answer.arrayBuffer();
