@@ -26,6 +26,36 @@ def test_the_focus_stays_at_the_stops(explorer: Explorer) -> None:
     assert page.evaluate(FOCUSED).startswith("choose a material")
 
 
+def orbit(explorer: Explorer) -> list[float]:
+    """Azimuth, elevation and zoom, once the link says them."""
+    explorer.page.wait_for_timeout(300)
+    link = explorer.page.evaluate("location.hash")
+    return [float(x) for x in link.partition("orbit=")[2].split("&")[0].split(",")]
+
+
+def test_the_object_is_turned_by_key(explorer: Explorer) -> None:
+    explorer.open(THREE)
+    explorer.page.locator(".live").focus()
+    t = explorer.page.locator(".t b").inner_text()
+    for key in ("ArrowLeft", "ArrowLeft", "ArrowUp"):
+        explorer.page.keyboard.press(f"Alt+{key}")
+    assert orbit(explorer) == pytest.approx([0.2, 0.1, 1])
+    assert explorer.page.locator(".t b").inner_text() == t
+
+
+def test_two_fingers_bring_the_object_nearer_and_do_not_turn_it(explorer: Explorer) -> None:
+    explorer.open(THREE)
+    box = explorer.page.locator(".live").bounding_box()
+    assert box is not None
+    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 3
+    session = explorer.page.context.new_cdp_session(explorer.page)
+    for kind, apart in (("touchStart", 20), ("touchMove", 30), ("touchMove", 40)):
+        points = [{"x": x + side * apart, "y": y, "id": i} for i, side in enumerate((-1, 1))]
+        session.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
+    session.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
+    assert orbit(explorer) == pytest.approx([0, 0, 2], abs=0.01)
+
+
 def test_the_search_says_which_material_is_marked(explorer: Explorer) -> None:
     explorer.open(THREE)
     search = explorer.page.locator("[name=search]")
