@@ -34,6 +34,9 @@ def test_the_button_that_adds_a_stop_stands_beside_the_last(explorer: Explorer) 
     assert middle_of(explorer, ".stops .icon[title='Add a stop']") == pytest.approx(
         middle_of(explorer, ".chip[data-stop=teflon]"), abs=2
     )
+    assert middle_of(explorer, ".route .t") == pytest.approx(
+        middle_of(explorer, "[name=compare]"), abs=2
+    )
 
 
 @pytest.mark.parametrize("size", [WIDE, NARROW])
