@@ -22,9 +22,11 @@ from playwright.sync_api import (
     sync_playwright,
 )
 
+from halfway.brdf import TabularBrdf
 from halfway.halfdiff import Grid
 from halfway.library import ProceduralLibrary
 from halfway.models import builtin
+from halfway.render import Renderer, Scene
 from halfway.server import Page as Files
 from halfway.server import create_app
 from halfway.server.run import listen
@@ -159,6 +161,21 @@ class Explorer:
 
     def set_t(self, t: float) -> None:
         self.page.locator("[name=t]").fill(str(t))
+
+
+def to_linear(shown: np.ndarray) -> np.ndarray:
+    """Linear RGB of drawn pixels, by the sRGB curve of IEC 61966-2-1."""
+    coded = shown[..., :3] / 255
+    return np.where(coded <= 0.04045, coded / 12.92, ((coded + 0.055) / 1.055) ** 2.4)
+
+
+def in_mitsuba(scene: Scene, brdf: TabularBrdf, like: np.ndarray, *, spp: int) -> np.ndarray:
+    """Linear RGB of the same picture by Mitsuba, as large as ``like``."""
+    height, width = like.shape[:2]
+    renderer = Renderer(scene, size=(width, height), spp=spp)
+    if not renderer.exact:
+        pytest.skip("needs Mitsuba with LLVM, which looks tables up as they are")
+    return renderer.picture(brdf)
 
 
 @pytest.fixture

@@ -7,11 +7,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
-from conftest import Explorer  # pyright: ignore[reportMissingImports]
+from conftest import Explorer, in_mitsuba, to_linear  # pyright: ignore[reportMissingImports]
 
 from halfway.brdf import TabularBrdf, hemisphere
 from halfway.library import ProceduralLibrary
-from halfway.render import Renderer
 from halfway.render.pictures import to_srgb
 from halfway.render.scenes import SCENES
 from halfway.render.studio import studio
@@ -199,14 +198,9 @@ def test_the_page_and_mitsuba_show_the_same(
     light: str,
 ) -> None:
     shown = settled(explorer, taken, name, light).bytes
-    height, width = shown.shape[:2]
     scene, spp = (SCENE, 256) if light == "points" else (replace(SCENE, points=()), 1024)
-    renderer = Renderer(scene, size=(width, height), spp=spp)
-    if not renderer.exact:
-        pytest.skip("needs Mitsuba with LLVM, which looks tables up as they are")
-    rendered = (renderer.picture(library.brdf(name)) / 2).clip(0, 1)
-    coded = shown[..., :3] / 255
-    linear = np.where(coded <= 0.04045, coded / 12.92, ((coded + 0.055) / 1.055) ** 2.4)
+    rendered = (in_mitsuba(scene, library.brdf(name), shown, spp=spp) / 2).clip(0, 1)
+    linear = to_linear(shown)
     # The outermost pixels are partly beside the sphere.
     inside = (
         (shown[..., 3] == 255)

@@ -4,10 +4,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from conftest import Explorer  # pyright: ignore[reportMissingImports]
+from conftest import Explorer, in_mitsuba, to_linear  # pyright: ignore[reportMissingImports]
 
 from halfway.library import ProceduralLibrary
-from halfway.render import SCENES, Renderer
+from halfway.render import SCENES
 
 SIZE = {"width": 720, "height": 620}
 # The page's teapot stands alone.
@@ -26,14 +26,9 @@ def test_the_teapot_is_shadowed_as_in_mitsuba(
     explorer.open(f"#space=linear&stops={MATERIAL},teflon&t=0&shape=teapot&light={light}")
     explorer.wait_for_picture(samples)
     shown = explorer.drawn()
-    height, width = shown.shape[:2]
     scene = TEAPOT if light == "points" else replace(TEAPOT, points=())
-    renderer = Renderer(scene, size=(width, height), spp=spp)
-    if not renderer.exact:
-        pytest.skip("needs Mitsuba with LLVM, which looks tables up as they are")
-    rendered = squares(renderer.picture(library.brdf(MATERIAL)).clip(0, 1))
-    coded = shown[..., :3] / 255
-    linear = squares(np.where(coded <= 0.04045, coded / 12.92, ((coded + 0.055) / 1.055) ** 2.4))
+    rendered = squares(in_mitsuba(scene, library.brdf(MATERIAL), shown, spp=spp).clip(0, 1))
+    linear = squares(to_linear(shown))
     inside = squares(shown[..., 3:])[..., 0] == 255
     assert inside.sum() > 100
     # Without shadows 2.7 % under the three lights, and 4.2 % in the studio.

@@ -18,7 +18,7 @@ export function materialView(context: Context): HTMLElement {
   const canvas = el("canvas.view.live", {
     tabindex: 0,
     role: "img",
-    "aria-label": "The material on an object; drag to turn it",
+    "aria-label": "The material on an object; drag it, or press Alt and an arrow, to turn it",
   });
   const note = el("span.note");
   const progress = el("i");
