@@ -6,7 +6,7 @@ import secrets
 import subprocess
 import sys
 import time
-from collections.abc import Generator
+from collections.abc import Callable, Generator
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -19,6 +19,8 @@ from halfway.server.page import refresh
 TOKEN = secrets.token_hex(16)
 START = 60.0
 """Seconds that Jupyter may take to listen."""
+PATIENCE = 10.0
+"""Seconds that a move may take to reach Python."""
 LIBRARY = """
 from halfway.halfdiff import Grid
 from halfway.library import ProceduralLibrary
@@ -97,6 +99,13 @@ class Notebook:
         """Run cell ``i``, and wait until it is done."""
         assert self.page.evaluate(RUN, i), "the cell failed or was not run"
 
+    def python_has(self, told: Callable[[list], bool]) -> list:
+        """What Python has, once it was told: the page tells it when the kernel has time."""
+        end = time.monotonic() + PATIENCE
+        while not told(has := self.python()) and time.monotonic() < end:
+            self.page.wait_for_timeout(100)
+        return has
+
     def python(self) -> list:
         """What Python has: stops, space, t, weights."""
         self.run(2)
@@ -144,8 +153,7 @@ def test_the_page_shows_itself_where_python_says(notebook: Notebook) -> None:
 def test_what_the_person_moves_python_sees(notebook: Notebook) -> None:
     page = notebook.page
     page.locator(".halfway [name=t]").fill("0.75")
-    page.wait_for_timeout(300)
-    stops, space, t, weights = notebook.python()
+    stops, space, t, weights = notebook.python_has(lambda has: has[2] != 0.5)
     assert (stops, space, t) == (["cherry-235", "teflon"], "linear", 0.75)
     assert weights == pytest.approx({"cherry-235": 0.25, "teflon": 0.75})
 
@@ -172,7 +180,6 @@ def test_the_page_takes_its_own_keys(notebook: Notebook) -> None:
     page.locator(".halfway [name=search]").fill("gold")
     page.keyboard.press("Enter")
     expect(page.locator(".halfway .chip[data-stop=gold-paint]")).to_have_count(1)
-    page.wait_for_timeout(300)
-    assert "gold-paint" in notebook.python()[0]
+    assert "gold-paint" in notebook.python_has(lambda has: "gold-paint" in has[0])[0]
     # Nothing of it was a command of the notebook.
     assert page.locator(".jp-Notebook .jp-CodeCell").count() == len(CELLS)

@@ -26,11 +26,15 @@ def test_the_focus_stays_at_the_stops(explorer: Explorer) -> None:
     assert page.evaluate(FOCUSED).startswith("choose a material")
 
 
-def orbit(explorer: Explorer) -> list[float]:
-    """Azimuth, elevation and zoom, once the link says them."""
-    explorer.page.wait_for_timeout(300)
-    link = explorer.page.evaluate("location.hash")
-    return [float(x) for x in link.partition("orbit=")[2].split("&")[0].split(",")]
+def wait_for_orbit(explorer: Explorer, expected: list[float], within: float) -> None:
+    """Until the link says azimuth, elevation and zoom."""
+    explorer.page.wait_for_function(
+        """([expected, within]) => {
+          const orbit = new URLSearchParams(location.hash.slice(1)).get("orbit")?.split(",") ?? [];
+          return expected.every((x, i) => Math.abs(x - orbit[i]) <= within);
+        }""",
+        arg=[expected, within],
+    )
 
 
 def test_the_object_is_turned_by_key(explorer: Explorer) -> None:
@@ -39,7 +43,7 @@ def test_the_object_is_turned_by_key(explorer: Explorer) -> None:
     t = explorer.page.locator(".t b").inner_text()
     for key in ("ArrowLeft", "ArrowLeft", "ArrowUp"):
         explorer.page.keyboard.press(f"Alt+{key}")
-    assert orbit(explorer) == pytest.approx([0.2, 0.1, 1])
+    wait_for_orbit(explorer, [0.2, 0.1, 1], within=1e-6)
     assert explorer.page.locator(".t b").inner_text() == t
 
 
@@ -53,7 +57,7 @@ def test_two_fingers_bring_the_object_nearer_and_do_not_turn_it(explorer: Explor
         points = [{"x": x + side * apart, "y": y, "id": i} for i, side in enumerate((-1, 1))]
         session.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
     session.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
-    assert orbit(explorer) == pytest.approx([0, 0, 2], abs=0.01)
+    wait_for_orbit(explorer, [0, 0, 2], within=0.01)
 
 
 def test_the_search_says_which_material_is_marked(explorer: Explorer) -> None:
