@@ -128,6 +128,9 @@ def test_coincident_points_are_one_vertex():
             2,
             id="coplanar",
         ),
+        pytest.param(
+            np.random.default_rng(0).normal(size=(9, 3)) * [1, 1, 1e-7], 2, id="below-32-bits"
+        ),
         pytest.param(np.random.default_rng(0).normal(size=(2, 3)), 1, id="two-points"),
         pytest.param(np.random.default_rng(0).normal(size=(3, 3)), 2, id="three-points"),
     ],

@@ -33,8 +33,8 @@ from ..errors import DegenerateSpaceWarning, OutsideHullError
 
 MERGE = 1e-9
 """Points closer than this share of the largest extent are one."""
-FLAT = 1e-9
-"""A direction in which the points extend by less than this share of the largest extent does not count."""
+FLAT = 1e-6
+"""A direction in which the points extend by less than this share of the largest extent is the rounding of 32-bit tables."""
 INSIDE = 1e-9
 """A weight above minus this is 0: rounding, not a place outside."""
 SINGULAR = 1e12
