@@ -49,14 +49,20 @@ class Figures(list[Figure]):
         self.append(Figure(what, compared, float(f"{ratio:.3g}"), goal, note))
 
 
-def race(*runners: Callable[[], object], rounds: int = 7) -> np.ndarray:
-    """Seconds of each of the runners in each round, (rounds, runners), in turn; one round before that warms up."""
+def race(
+    *runners: Callable[[], object], rounds: int = 7, after: Callable[[], object] = lambda: None
+) -> np.ndarray:
+    """Seconds of each of the runners in each round, (rounds, runners), in turn; one round before that warms up.
+
+    What follows each run, such as taking away what it wrote, is not timed.
+    """
     seconds = np.empty((rounds + 1, len(runners)))
     for times in seconds:
         for i, run in enumerate(runners):
             start = time.perf_counter()
             run()
             times[i] = time.perf_counter() - start
+            after()
     return seconds[1:]
 
 

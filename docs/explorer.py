@@ -36,7 +36,9 @@ TEAPOT = replace(SCENES["teapot"], points=SPHERE.points, ground=False)
 SCENE_OF = {"sphere": SPHERE, "teapot": TEAPOT}
 LIGHTS = {"points": "three lights", "studio": "studio"}
 EXPOSURE = -1.0
-SPP = 1024
+SPP = 4096
+# What the page settles for.
+SAMPLES = {"points": 128, "studio": 384}
 SCREENS = {
     "explorer-dark": ((1440, 900), "dark", "#space=anchored&stops=gold-metallic-paint,blue-acrylic&t=0.2&shape=teapot"),
     "explorer-light": ((1440, 900), "light", "#space=paper&stops=cherry-235,tungsten-carbide&t=0.5&light=city&compare=linear"),
@@ -77,7 +79,7 @@ def served(library: Library) -> Generator[str]:
 def compare(browser: Browser, address: str, library: Library) -> None:
     """The page beside Mitsuba: the picture, and a table of mean differences."""
     page = browser.new_page(viewport={"width": 480, "height": 640}, color_scheme="dark")
-    print("| material | object | light | mean difference |\n|---|---|---|---|")
+    print("| material | object | light | page | Mitsuba, as many samples and bits |\n|---|---|---|---|---|")
     rows: list[np.ndarray] = []
     for shape, light in product(SCENE_OF, LIGHTS):
         scene = SCENE_OF[shape] if light == "points" else replace(SCENE_OF[shape], points=())
@@ -85,11 +87,16 @@ def compare(browser: Browser, address: str, library: Library) -> None:
         for name, kind in MATERIALS.items():
             shown, covered = in_page(page, address, name, shape, light)
             height, width = covered.shape
-            renderer = Renderer(scene, size=(width, height), spp=SPP)
-            rendered = clipped(2**EXPOSURE * renderer.picture(library.brdf(name)))
+            rendered, as_many = (
+                clipped(2**EXPOSURE * Renderer(scene, size=(width, height), spp=spp).picture(library.brdf(name)))
+                for spp in (SPP, SAMPLES[light])
+            )  # fmt: skip
             inside = eroded(covered)
-            difference = np.abs(shown - rendered)[inside].mean() / rendered[inside].mean()
-            print(f"| {name} ({kind}) | {shape} | {LIGHTS[light]} | {difference:.2%} |", flush=True)
+            differences = [
+                f"{np.abs(picture - rendered)[inside].mean() / rendered[inside].mean():.2%}"
+                for picture in (shown, from_srgb(pictures.to_srgb(as_many) / 255))
+            ]
+            print("|", " | ".join([f"{name} ({kind})", shape, LIGHTS[light], *differences]), "|", flush=True)  # fmt: skip
             row += [square(shown, covered), square(rendered, covered)]
         rows.append(np.concatenate(row, axis=1))
     page.close()
@@ -155,7 +162,7 @@ def take(browser: Browser, address: str, name: str) -> None:
     page.goto(address + fragment)
     with suppress(TooLate):
         # On a slow machine a picture that still gets better will do.
-        page.wait_for_selector(".material[data-settled=true]", timeout=90_000)
+        page.wait_for_selector(".material[data-settled=true]", timeout=400_000)
     page.screenshot(path=IMAGES / f"{name}.png", full_page=True)
     page.close()
     Image.open(IMAGES / f"{name}.png").convert("RGB").save(IMAGES / f"{name}.webp", quality=86)

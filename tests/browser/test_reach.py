@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from conftest import Explorer  # pyright: ignore[reportMissingImports]
+from playwright.sync_api import expect
 
 THREE = "#space=linear&stops=cherry-235,teflon,gold-paint&light=points"
 FOCUSED = "() => document.activeElement.textContent || document.activeElement.ariaLabel"
@@ -45,6 +46,16 @@ def test_the_object_is_turned_by_key(explorer: Explorer) -> None:
         explorer.page.keyboard.press(f"Alt+{key}")
     wait_for_orbit(explorer, [0.2, 0.1, 1], within=1e-6)
     assert explorer.page.locator(".t b").inner_text() == t
+
+
+def test_the_space_is_turned_by_key(explorer: Explorer) -> None:
+    explorer.open(THREE)
+    here = explorer.page.locator(".here")
+    here.wait_for()
+    before = here.get_attribute("style")
+    assert before is not None
+    explorer.page.locator(".cloud").press("Alt+ArrowLeft")
+    expect(here).not_to_have_attribute("style", before)
 
 
 def test_two_fingers_bring_the_object_nearer_and_do_not_turn_it(explorer: Explorer) -> None:

@@ -47,12 +47,7 @@ export function orbitOnDrag({ store }: Context, canvas: HTMLCanvasElement): void
     const { orbit } = store.get();
     store.set({ orbit: { ...orbit, zoom: Math.min(Math.max(orbit.zoom * factor, 0.4), 4) } });
   };
-  canvas.addEventListener("keydown", (event) => {
-    const arrow = ARROWS[event.key];
-    if (arrow === undefined || !event.altKey) return;
-    event.preventDefault();
-    turn(PRESSED * arrow[0], PRESSED * arrow[1]);
-  });
+  turnOnKeys(canvas, turn);
   canvas.addEventListener(
     "wheel",
     (event) => {
@@ -61,6 +56,19 @@ export function orbitOnDrag({ store }: Context, canvas: HTMLCanvasElement): void
     },
     { passive: false },
   );
+}
+
+/** Alt and an arrow turn what the canvas shows: radians of azimuth and elevation. */
+export function turnOnKeys(
+  canvas: HTMLCanvasElement,
+  turn: (azimuth: number, elevation: number) => void,
+): void {
+  canvas.addEventListener("keydown", (event) => {
+    const arrow = ARROWS[event.key];
+    if (arrow === undefined || !event.altKey) return;
+    event.preventDefault();
+    turn(PRESSED * arrow[0], PRESSED * arrow[1]);
+  });
 }
 
 function distance(a: Place, b: Place): number {

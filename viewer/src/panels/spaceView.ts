@@ -9,14 +9,14 @@ import { Appearance } from "../render/appearance";
 import { Cloud } from "../render/cloud";
 import { Scores } from "../render/display";
 import { paced } from "../render/loop";
+import { labelPlaces } from "./labels";
+import { turnOnKeys } from "./orbit";
 import { shelf } from "./shelf";
 
 const APPEARANCE = "Looks";
 /** Milliseconds between drawings: what moves is the material, and this stands beside it. */
 const BESIDE = 60;
 const ROUTE_POINTS = 160;
-/** About what a label takes, in CSS pixels. */
-const LABEL = { width: 150, height: 23 };
 /** How near the pointer has to be to take the present material, in CSS pixels. */
 const MARKER = 11;
 /** A pointer that moved less between down and up was a click, in CSS pixels. */
@@ -29,7 +29,7 @@ export function spaceView(context: Context): HTMLElement {
   const canvas = el("canvas.view.cloud", {
     tabindex: 0,
     role: "img",
-    "aria-label": "The materials as points; the search reaches them all",
+    "aria-label": "The materials as points; Alt and an arrow turn them, and the search reaches them all",
   });
   const labels = el("div.labels", { "aria-hidden": "true" });
   const note = el("span.note");
@@ -155,21 +155,14 @@ export function spaceView(context: Context): HTMLElement {
     const { stops, hovered } = store.get();
     if (cloud.placement === null) return;
     const shownNames = [...new Set([...(hovered ? [hovered] : []), ...stops])];
-    const taken: { x: number; y: number }[] = [];
-    const items = shownNames.map((name) => {
+    const anchors = shownNames.map((name) => {
       const point = cloud.placement!.points[indices.get(name)!]!;
-      const { x, y: middle } = cloud.project(point);
-      // Below a label that is in the way already.
-      let y = middle;
-      while (
-        taken.some((other) => Math.abs(other.y - y) < LABEL.height && Math.abs(other.x - x) < LABEL.width)
-      )
-        y += 4;
-      taken.push({ x, y });
+      return { ...cloud.project(point), gap: cloud.radius(point) * 1.5 + 5 };
+    });
+    const items = labelPlaces(anchors, canvas.clientWidth).map(({ x, y, side }, i) => {
+      const name = shownNames[i]!;
       const label = el(name === hovered ? "div.label.hovered" : "div.label", {}, {}, name);
-      const gap = cloud.radius(point) * 1.5 + 5;
-      const aside = x > canvas.clientWidth * 0.62 ? `calc(-100% - ${gap}px)` : `${gap}px`;
-      label.style.transform = `translate(${x}px, ${y}px) translate(${aside}, -50%)`;
+      label.style.transform = `translate(${x}px, ${y}px) translate(${side === "left" ? "-100%" : "0"}, -50%)`;
       return label;
     });
     const markers = [
@@ -197,6 +190,7 @@ export function spaceView(context: Context): HTMLElement {
     const coordinates = cloud.placement.coordinatesAt(cloud.unproject(x, y, here3d));
     actions.goTo(withCoordinates(view, point ?? pointOf(view, names, recipe), current.name, coordinates));
   };
+  turnOnKeys(canvas, (azimuth, elevation) => cloud.turn(azimuth, elevation));
   canvas.addEventListener("webglcontextrestored", () => draw());
   listenToPointer(canvas, {
     hover: (x, y) => {

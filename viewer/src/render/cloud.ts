@@ -9,6 +9,7 @@ import {
   LinearFilter,
   LineBasicMaterial,
   LineSegments,
+  MathUtils,
   PerspectiveCamera,
   Points,
   PointsMaterial,
@@ -39,6 +40,8 @@ export interface Look {
 const PIXELS = 26;
 /** Materials whose spheres are that large. */
 const FEW = 200;
+/** How far above or below the camera may stand, radians. */
+const STEEPEST = 1.5;
 /** Further than anything is away. */
 const FRONT = 1e3;
 
@@ -211,6 +214,19 @@ export class Cloud {
   draw(): void {
     this.sort();
     this.renderer.render(this.scene, this.camera);
+  }
+
+  /** Turn the camera about what it looks at, by radians. */
+  turn(azimuth: number, elevation: number): void {
+    const { position } = this.camera;
+    const { target } = this.controls;
+    const { x, y, z } = position.clone().sub(target);
+    const radius = Math.hypot(x, y, z);
+    const up = MathUtils.clamp(Math.asin(z / radius) + elevation, -STEEPEST, STEEPEST);
+    const around = Math.atan2(y, x) + azimuth;
+    position.set(Math.cos(up) * Math.cos(around), Math.cos(up) * Math.sin(around), Math.sin(up));
+    position.multiplyScalar(radius).add(target);
+    this.controls.update();
   }
 
   dispose(): void {

@@ -1,4 +1,4 @@
-// Tables on the graphics card: fetched when wanted, most wanted first, the least recently wanted let go.
+// Tables on the graphics card: fetched when wanted, most wanted first; those wanted no more make room, the oldest first.
 
 import {
   ClampToEdgeWrapping,
