@@ -79,7 +79,9 @@ def served(library: Library) -> Generator[str]:
 def compare(browser: Browser, address: str, library: Library) -> None:
     """The page beside Mitsuba: the picture, and a table of mean differences."""
     page = browser.new_page(viewport={"width": 480, "height": 640}, color_scheme="dark")
-    print("| material | object | light | page | Mitsuba, as many samples and bits |\n|---|---|---|---|---|")
+    print(
+        "| material | object | light | page | Mitsuba, as many samples and bits |\n|---|---|---|---|---|"
+    )
     rows: list[np.ndarray] = []
     for shape, light in product(SCENE_OF, LIGHTS):
         scene = SCENE_OF[shape] if light == "points" else replace(SCENE_OF[shape], points=())
