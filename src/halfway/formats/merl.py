@@ -155,7 +155,6 @@ def _decoded(source: Source) -> TabularBrdf | None:
 def write_merl(path: str | Path, table: TabularBrdf) -> None:
     """Write a table as a MERL file; raises as `MerlFile.from_table` and `MerlFile.write` do."""
     require_merl_shaped(table.grid, table.name)
-    _require_storable(table)
     header = encode_header(table.grid)
     with (
         replacing(Path(path)) as temporary,
@@ -171,11 +170,14 @@ def write_merl(path: str | Path, table: TabularBrdf) -> None:
 
 
 def _encoded_blocks(table: TabularBrdf) -> Iterator[np.ndarray]:
-    """The samples of a file in order; each block is overwritten by the next but one."""
+    """The samples of a file in order, each block overwritten by the next but one; raises as `_require_storable`."""
     buffers = cycle(np.empty((2, _BLOCK_WRITTEN), "<f8"))
     for channel, scale in zip(table.values.reshape(3, -1), SCALES, strict=True):
         for start in range(0, len(channel), _BLOCK_WRITTEN):
             values = channel[start : start + _BLOCK_WRITTEN]
+            # A block that is in the cache is looked at for next to nothing; what is wrong is said of the whole table.
+            if not _is_storable(values):
+                _require_storable(table)
             samples = next(buffers)[: len(values)]
             _encode(values, scale, samples)
             yield samples
@@ -293,10 +295,15 @@ def _require_finite(samples: Samples, label: str) -> None:
     )
 
 
+def _is_storable(values: np.ndarray) -> bool:
+    # Faster than looking at each: of what is not NaN, the smallest and the largest. Where all is NaN, they are too.
+    least, most = np.fmin.reduce(values, axis=None), np.fmax.reduce(values, axis=None)
+    return not (least < 0 or most == np.inf)
+
+
 def _require_storable(table: TabularBrdf) -> None:
     values = table.values
-    # Faster than looking at each: of what is not NaN, the smallest and the largest.
-    if np.fmin.reduce(values, axis=None) >= 0 and np.fmax.reduce(values, axis=None) < np.inf:
+    if _is_storable(values):
         return
     for what, wrong in (("negative", values < 0), ("infinite", np.isinf(values))):
         if wrong.any():
