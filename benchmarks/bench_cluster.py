@@ -5,10 +5,12 @@ import pytest
 from conftest import race, ratio
 
 from halfway.cluster import Cluster
+from halfway.components import Pca
 from halfway.halfdiff import Grid
-from halfway.library import Pca, ProceduralLibrary
+from halfway.judge import Bench, evaluate, sample_pairs
+from halfway.library import ProceduralLibrary
 from halfway.models import builtin
-from halfway.space import Bench, LinearSpace, evaluate, sample_pairs
+from halfway.space import LinearSpace
 from halfway.tasks import THREADS, Engine, run
 
 N_TASKS = 500

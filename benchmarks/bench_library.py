@@ -24,7 +24,8 @@ from halfway.tasks import run
 FIT = """
 import json, sys, time
 from pathlib import Path
-from halfway.library import Pca, StoredLibrary
+from halfway.components import Pca
+from halfway.library import StoredLibrary
 library = StoredLibrary(Path(sys.argv[1]))
 def peak():  # not getrusage's, which a process inherits
     lines = Path("/proc/self/status").read_text().splitlines()

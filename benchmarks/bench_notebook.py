@@ -3,7 +3,8 @@
 import pytest
 
 from halfway.library import open_library
-from halfway.space import LinearSpace, Recipe, Route
+from halfway.recipes import Recipe
+from halfway.space import LinearSpace, Route
 
 
 @pytest.fixture(scope="module")

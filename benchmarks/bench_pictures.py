@@ -4,8 +4,8 @@ import numpy as np
 from conftest import race, ratio
 
 from halfway import LinearSpace, Route
+from halfway.recipes import Mixer
 from halfway.render import BasisPictures, Renderer
-from halfway.space import Mixer
 
 SIZE = 256
 

@@ -13,7 +13,7 @@ from halfway import HalfDiff, PaperSpace, Pca, Recipe, Route, from_half_diff
 from halfway.export import write_route
 from halfway.formats import read_merl, write_merl
 from halfway.formats.merl import SCALES
-from halfway.space import Mixer
+from halfway.recipes import Mixer
 
 STOPS = ["cherry-235", "tungsten-carbide"]
 

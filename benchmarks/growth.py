@@ -16,10 +16,11 @@ MEASURE = """
 import json, sys, tempfile, time
 from pathlib import Path
 from halfway.halfdiff import Grid
-from halfway.library import Pca, ProceduralLibrary, PcaPlan
-from halfway.library.gram import Gram
-from halfway.library.gram_cache import kept_gram
-from halfway.library.sketch import sketch
+from halfway.components import Pca, PcaPlan
+from halfway.library import ProceduralLibrary
+from halfway.components.gram import Gram
+from halfway.components.gram_cache import kept_gram
+from halfway.components.sketch import sketch
 from halfway.models import synthetic
 from halfway.space import DelaunayWalk, PaperSpace, Route
 def peak():

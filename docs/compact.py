@@ -10,9 +10,11 @@ from pathlib import Path
 import numpy as np
 
 from halfway import build_library
-from halfway.brdf.image_metrics import appearance, ciede2000_difference, flip, shown
+from halfway.components import compact_library
 from halfway.export.figures import STYLE
-from halfway.library import BasisImages, Coding, CompactLibrary, Library, compact_library
+from halfway.library import Coding, CompactLibrary, Library
+from halfway.look import Looks
+from halfway.look.appearance import appearance, ciede2000_difference, flip, shown
 
 CURVES = {
     "log, shared, int8": (Coding("log", True, "int8"), (5, 15, 36, 72, 108)),
@@ -28,7 +30,7 @@ def main(where: str) -> None:
     """Make every library of `CURVES`, measure it, print the table, and write the figure for the neural fits."""
     with tempfile.TemporaryDirectory() as folder:
         tables = build_library([where], Path(folder) / "tables.brdflib").library
-        images = BasisImages.fit(tables)
+        images = Looks.fit(tables)
         print("| components | k | MB | relative error | log-relative | PSNR | CIEDE2000 | FLIP |")
         print("|---|---|---|---|---|---|---|---|")
         rows: dict[str, list[tuple[float, float, float]]] = {}
@@ -52,9 +54,9 @@ def main(where: str) -> None:
         draw(rows)
 
 
-def pictures_apart(images: BasisImages, made: Library) -> dict[str, tuple[float, float]]:
+def pictures_apart(images: Looks, made: Library) -> dict[str, tuple[float, float]]:
     """Median and worst of each image metric over the materials, on a lit sphere."""
-    a, b = images.images, BasisImages.fit(made).images
+    a, b = images.images, Looks.fit(made).images
     squared = np.square(encoded(a) - encoded(b)).mean(axis=(1, 2))
     psnr = -10 * np.log10(np.maximum(squared, 1e-12))
     colour = ciede2000_difference(appearance(a), appearance(b))
@@ -72,7 +74,7 @@ def encoded(rgb: np.ndarray) -> np.ndarray:
     return np.where(x <= 0.0031308, 12.92 * x, 1.055 * x ** (1 / 2.4) - 0.055)
 
 
-def square(images: BasisImages, pixels: np.ndarray) -> np.ndarray:
+def square(images: Looks, pixels: np.ndarray) -> np.ndarray:
     """The picture of pixels on the sphere, 0 beside it."""
     picture = np.zeros((*images.scene.mask().shape, 3), np.float32)
     picture[images.scene.mask()] = pixels

@@ -96,13 +96,13 @@ def compare(browser: Browser, address: str, library: Library) -> None:
             inside = eroded(covered)
             differences = [
                 f"{np.abs(picture - rendered)[inside].mean() / rendered[inside].mean():.2%}"
-                for picture in (shown, from_srgb(pictures.to_srgb(as_many) / 255))
+                for picture in (shown, from_srgb(pictures.to_8_bit(as_many) / 255))
             ]
             print("|", " | ".join([f"{name} ({kind})", shape, LIGHTS[light], *differences]), "|", flush=True)  # fmt: skip
             row += [square(shown, covered), square(rendered, covered)]
         rows.append(np.concatenate(row, axis=1))
     page.close()
-    picture = pictures.to_srgb(np.concatenate(rows))
+    picture = pictures.to_8_bit(np.concatenate(rows))
     Image.fromarray(picture).save(IMAGES / "explorer-beside-mitsuba.webp", quality=88)
 
 

@@ -14,11 +14,12 @@ import numpy as np
 
 from halfway import MERL, Brdf, Route, open_library, tabulate
 from halfway.brdf import check
+from halfway.brdf.quality import lit_sphere, quality
 from halfway.export.scenes import write_scene
 from halfway.formats import read_brdf, read_rgl, write_merl, write_rgl
-from halfway.formats.rgl_quality import lit_sphere, quality
+from halfway.recipes import mix
 from halfway.render.variant import load_mitsuba, register
-from halfway.space import make_space, mix
+from halfway.space import make_space
 
 FOLDER = Path(__file__).parent / "images"
 STOPS = "cherry-235", "tungsten-carbide"

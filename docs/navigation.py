@@ -11,8 +11,9 @@ import numpy as np
 from halfway import Pca, open_library
 from halfway.cli.console import cache_folder
 from halfway.export.figures import STYLE
-from halfway.space import Bench, LinearSpace, PaperSpace, anchored_space, evaluate, sample_pairs
-from halfway.space.evaluation import uniform
+from halfway.judge import Bench, evaluate, sample_pairs
+from halfway.judge.evaluation import uniform
+from halfway.space import LinearSpace, PaperSpace, anchored_space
 
 DETOURS = (1.0, 1.02, 1.05, 1.1, 1.2, 1.5, np.inf)
 COMPONENTS = (1, 2, 4, 6, 8)

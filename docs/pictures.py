@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 
 from halfway import Route, open_library
-from halfway.library import BasisImages
+from halfway.look import Looks
 from halfway.render import BasisPictures, Renderer, pictures
 from halfway.space import make_space, perceptual
 
@@ -21,7 +21,7 @@ N_COLUMNS = 7
 def main() -> None:
     """Write the strip at the top of the README, and the paper's space above ours for the page on navigation."""
     library = open_library("builtin:merl-abc")
-    images = BasisImages.fit(library)
+    images = Looks.fit(library)
     spaces = {name: make_space(name, library) for name in ("anchored", "paper")}
     basis = BasisPictures(Renderer("teapot", size=(288, 240), spp=96, denoise=True), library.brdf)
 

@@ -7,9 +7,10 @@ from pathlib import Path
 import numpy as np
 
 from halfway import Library, Route, open_library
-from halfway.library import BasisImages
+from halfway.look import Looks
+from halfway.recipes import mix
 from halfway.render import QUALITY, BasisPictures, Renderer, pictures
-from halfway.space import make_space, mix, perceptual
+from halfway.space import make_space, perceptual
 
 FOLDER = Path(__file__).parent / "images"
 SHOWN = {
@@ -82,7 +83,7 @@ def lookups(library: Library) -> None:
 
 def route(library: Library) -> None:
     """A route's frames against the renders of the measured materials it touches, at 512 x 512."""
-    images = BasisImages.fit(library)
+    images = Looks.fit(library)
     found = perceptual(Route.through(make_space("anchored", library), STOPS), images)
     recipes = found.recipes(found.steps(N_FRAMES))
     names = sorted({name for recipe in recipes for name in recipe.names})
@@ -107,7 +108,7 @@ def route(library: Library) -> None:
 
 
 def _rms(a: np.ndarray, b: np.ndarray) -> float:
-    difference = pictures.to_srgb(a).astype(float) - pictures.to_srgb(b)
+    difference = pictures.to_8_bit(a).astype(float) - pictures.to_8_bit(b)
     return float(np.sqrt(np.mean(difference**2)))
 
 

@@ -9,7 +9,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from halfway import open_library
-from halfway.library import PACING_SCENE, SphereOperator
+from halfway.look import PACING_SCENE, SphereOperator
 from halfway.render.pictures import to_srgb
 
 library = open_library("builtin:merl-abc")

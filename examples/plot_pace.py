@@ -9,12 +9,12 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from halfway import Route, open_library
-from halfway.brdf.image_metrics import appearance, ciede2000_difference
-from halfway.library import BasisImages
+from halfway.look import Looks
+from halfway.look.appearance import appearance, ciede2000_difference
 from halfway.space import make_space, perceptual
 
 library = open_library("builtin:merl-abc")
-images = BasisImages.fit(library)
+images = Looks.fit(library)
 uniform = Route.through(make_space("paper", library), ["cherry-235", "tungsten-carbide"])
 
 figure, ax = plt.subplots(figsize=(8, 3.5), layout="constrained")

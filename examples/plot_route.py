@@ -9,12 +9,12 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from halfway import Route, open_library
-from halfway.library import BasisImages
+from halfway.look import Looks
 from halfway.render import pictures
 from halfway.space import make_space, perceptual
 
 library = open_library("builtin:merl-abc")
-images = BasisImages.fit(library)
+images = Looks.fit(library)
 
 # %%
 # One picture per measured material is enough: with direct light the picture of a mix is the mix of the pictures.

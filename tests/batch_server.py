@@ -10,7 +10,7 @@ from pathlib import Path
 
 from halfway import LinearSpace, Route, open_library
 from halfway.export import write_route
-from halfway.space import mix
+from halfway.recipes import mix
 
 N = 40
 

@@ -132,7 +132,7 @@ def _words(library: str) -> Callable[[bytes, Path], None]:
     def read(content: bytes, folder: Path) -> None:
         del folder
         from halfway.cli.arguments import LONGEST_ROUTE, parse_point, parse_t
-        from halfway.space import Recipe
+        from halfway.recipes import Recipe
 
         recipe, t, point, *_ = [*content[:200].decode(errors="replace").split("\n"), "", ""]
         Recipe.from_text(library, recipe)

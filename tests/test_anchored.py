@@ -9,10 +9,11 @@ from strategies import points, random_tables
 from test_triangulation import quietly
 
 from halfway import Pca, Route, open_library
-from halfway.brdf.image_metrics import appearance, ciede2000_difference, cielab_difference
 from halfway.errors import OutsideHullError, SpaceError
 from halfway.halfdiff import Grid
-from halfway.library import BasisImages, BasisSamples, ProceduralLibrary
+from halfway.library import ProceduralLibrary
+from halfway.look import CellSamples, Looks
+from halfway.look.appearance import appearance, ciede2000_difference, cielab_difference
 from halfway.space import (
     AnchoredSpace,
     DelaunayWalk,
@@ -34,12 +35,12 @@ def library():
 
 @pytest.fixture(scope="module")
 def images(library):
-    return BasisImages.fit(library)
+    return Looks.fit(library)
 
 
 @pytest.fixture(scope="module")
 def samples(library):
-    return BasisSamples.fit(library)
+    return CellSamples.fit(library)
 
 
 @pytest.fixture(scope="module")
@@ -196,7 +197,7 @@ def test_pacing_changes_when_not_where(space, images):
 
 def test_a_route_on_which_nothing_changes_keeps_its_t(library, images):
     space = LinearSpace("twins", library.names)
-    same = BasisImages(images.names, images.scene, np.repeat(images.planes[:, :1], 12, axis=1))
+    same = Looks(images.names, images.scene, np.repeat(images.planes[:, :1], 12, axis=1))
     route = Route.through(space, ["material-0", "material-1"])
     assert_allclose(perceptual(route, same).at(np.array([0.5])), route.at(np.array([0.5])))
 
@@ -240,7 +241,7 @@ def test_cherry_to_tungsten_carbide_on_the_neural_stand_in(shared_data):
     few = ProceduralLibrary("few", some, grid=library.grid)
     space = anchored_space(few)
     route = Route.through(space, ["cherry-235", "tungsten-carbide"])
-    images = BasisImages.fit(few)
+    images = Looks.fit(few)
     looks = appearance(images.mix(perceptual(route, images).at(np.linspace(0, 1, 51))))
     length = cielab_difference(looks[1:], looks[:-1]).sum()
     assert length / cielab_difference(looks[0], looks[-1]) < 1.12

@@ -10,21 +10,15 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
 from halfway.brdf import TabularBrdf, directional_albedo, tabulate
-from halfway.brdf.sphere import N_SKY_NODES, Light, Sky
 from halfway.halfdiff import Grid
-from halfway.library import (
-    JUDGING_SCENE,
-    PACING_SCENE,
-    BasisImages,
-    BasisScene,
-    ProceduralLibrary,
-    SphereOperator,
-)
+from halfway.library import ProceduralLibrary
+from halfway.look import JUDGING_SCENE, PACING_SCENE, Looks, SphereOperator, SphereScene
+from halfway.look.lit_sphere import N_SKY_NODES, Light, Sky
 from halfway.models import AbcModel
 
 GRID = Grid.merl(20, 12, 24)
 NO_SKY = Sky((0.0, 1.0, 0.0), 0.0, 0.0)
-SMALL = BasisScene(
+SMALL = SphereScene(
     "small",
     (Light((1.0, 2.0, 2.0), 3.0), Light((-1.0, 0.0, -0.5), 2.0)),
     Sky((0.3, 0.9, 0.1), 0.7, 0.1),
@@ -49,8 +43,8 @@ def library() -> ProceduralLibrary:
 
 
 @pytest.fixture(scope="module")
-def images(library: ProceduralLibrary) -> BasisImages:
-    return BasisImages.fit(library, SMALL)
+def images(library: ProceduralLibrary) -> Looks:
+    return Looks.fit(library, SMALL)
 
 
 def test_a_matte_sphere_under_one_light_is_the_cosine():
@@ -104,7 +98,7 @@ def in_frame(normal: np.ndarray, direction: np.ndarray) -> np.ndarray:
 
 def test_under_an_even_sky_a_pixel_is_the_albedo():
     """Radiance 1 from everywhere: by reciprocity what comes back is the directional albedo towards the viewer."""
-    scene = BasisScene("even", (), Sky((0.0, 0.0, 1.0), 1.0, 1.0), size=9, n_points=1)
+    scene = SphereScene("even", (), Sky((0.0, 0.0, 1.0), 1.0, 1.0), size=9, n_points=1)
     brdf = tabulate(glossy(0.3), GRID)
     actual = SphereOperator.of(scene, GRID).picture(brdf.values.reshape(3, -1))
     position = (np.arange(9) + 0.5) / 4.5 - 1
@@ -117,7 +111,7 @@ def test_under_an_even_sky_a_pixel_is_the_albedo():
 
 
 def test_a_sky_brighter_above_lights_the_top():
-    scene = BasisScene("above", (), Sky((0.0, 1.0, 0.0), 1.0, 0.0), size=16, n_points=2)
+    scene = SphereScene("above", (), Sky((0.0, 1.0, 0.0), 1.0, 0.0), size=16, n_points=2)
     picture = np.zeros((16, 16))
     picture[scene.mask()] = SphereOperator.of(scene, GRID).picture(constant_row(1 / math.pi))[:, 0]
     # A matte surface sees (1 + 2/3 up . n) / 2 of it.
@@ -127,7 +121,7 @@ def test_a_sky_brighter_above_lights_the_top():
 
 
 @pytest.mark.parametrize("scene", [PACING_SCENE, JUDGING_SCENE])
-def test_a_white_matte_sphere_just_reaches_white(scene: BasisScene):
+def test_a_white_matte_sphere_just_reaches_white(scene: SphereScene):
     picture = SphereOperator.of(dataclasses.replace(scene, n_points=1), GRID).picture(
         constant_row(1 / math.pi)
     )
@@ -144,7 +138,7 @@ def test_the_two_scenes_share_no_light():
 @settings(deadline=None, max_examples=10)
 @given(st.lists(st.floats(0.01, 1), min_size=12, max_size=12))
 def test_the_picture_of_a_mix_is_the_mix_of_the_pictures(
-    library: ProceduralLibrary, images: BasisImages, numbers: list[float]
+    library: ProceduralLibrary, images: Looks, numbers: list[float]
 ):
     weights = np.array(numbers).reshape(3, 4)
     weights /= weights.sum(axis=1, keepdims=True)
@@ -153,19 +147,19 @@ def test_the_picture_of_a_mix_is_the_mix_of_the_pictures(
     assert_allclose(images.mix(weights), picture, rtol=1e-5, atol=1e-6)
 
 
-def test_one_material_alone_is_its_own_picture(images: BasisImages):
+def test_one_material_alone_is_its_own_picture(images: Looks):
     for i, alone in enumerate(np.eye(4)):
         assert (images.mix(np.stack([alone] * 3)) == images.images[i]).all()
 
 
-def test_mixing_keeps_the_axes_between(images: BasisImages):
+def test_mixing_keeps_the_axes_between(images: Looks):
     weights = np.random.default_rng(1).dirichlet(np.ones(4), (3, 5, 2))
     together = images.mix(weights)
     assert together.shape == (5, 2, images.planes.shape[-1], 3)
     assert_allclose(together[3, 1], images.mix(weights[:, 3, 1]), rtol=1e-6)
 
 
-def test_a_picture_is_square_and_black_beside_the_sphere(images: BasisImages):
+def test_a_picture_is_square_and_black_beside_the_sphere(images: Looks):
     weights = np.full((3, 4), 0.25)
     picture = images.picture(weights)
     mask = SMALL.mask()
@@ -175,10 +169,10 @@ def test_a_picture_is_square_and_black_beside_the_sphere(images: BasisImages):
 
 
 def test_a_cache_gives_the_same_pictures_and_knows_the_scene(library: ProceduralLibrary, tmp_path):
-    first = BasisImages.fit(library, SMALL, cache=tmp_path)
-    again = BasisImages.fit(library, SMALL, cache=tmp_path)
+    first = Looks.fit(library, SMALL, cache=tmp_path)
+    again = Looks.fit(library, SMALL, cache=tmp_path)
     assert len(list(tmp_path.iterdir())) == 1
     assert (first.planes == again.planes).all()
     brighter = dataclasses.replace(SMALL, lights=(Light((1.0, 2.0, 2.0), 6.0), *SMALL.lights[1:]))
-    other = BasisImages.fit(library, brighter, cache=tmp_path)
+    other = Looks.fit(library, brighter, cache=tmp_path)
     assert other.planes.sum() > first.planes.sum()

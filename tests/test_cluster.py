@@ -15,12 +15,15 @@ from strategies import random_tables
 
 from halfway import Recipe, Route, build_library
 from halfway.cluster import Cluster
+from halfway.components import Pca
 from halfway.errors import ClusterError, FormatError, LibraryError, MissingExtraError
 from halfway.export import compare_spaces, write_route
 from halfway.formats import write_merl
 from halfway.halfdiff import Grid
-from halfway.library import BasisImages, BasisSamples, Pca, StoredLibrary, verify_library
-from halfway.space import LinearSpace, Mixer
+from halfway.library import StoredLibrary, verify_library
+from halfway.look import CellSamples, Looks
+from halfway.recipes import Mixer
+from halfway.space import LinearSpace
 from halfway.tasks import THREADS, Threads, run
 
 GRID = Grid.merl(12, 10, 8)
@@ -97,8 +100,8 @@ def test_a_library_of_files_named_from_here_is_right_there_too(
 def test_components_pictures_and_samples_are_the_same_bytes(cluster, library):
     for fit, fields in (
         (Pca.fit, ("eigenvalues", "eigenvectors", "squared_norms")),
-        (BasisImages.fit, ("planes",)),
-        (BasisSamples.fit, ("values", "body")),
+        (Looks.fit, ("planes",)),
+        (CellSamples.fit, ("values", "body")),
     ):
         here, there = fit(library), fit(library, engine=cluster)
         for field in fields:

@@ -12,9 +12,10 @@ from strategies import random_tables
 
 from halfway import Pca, Recipe, TabularBrdf, mix, open_library
 from halfway.brdf.metrics import difference
+from halfway.components import compact_library
 from halfway.errors import LibraryError
 from halfway.halfdiff import Grid
-from halfway.library import Coding, CompactLibrary, ProceduralLibrary, blocks, compact_library
+from halfway.library import Coding, CompactLibrary, ProceduralLibrary, blocks
 from halfway.models import synthetic
 
 GRID = Grid.merl(12, 8, 6)

@@ -11,26 +11,20 @@ from numpy.testing import assert_allclose
 from strategies import random_tables
 
 from halfway.brdf import difference, tabulate
-from halfway.brdf.image_metrics import appearance, cielab_difference, to_lab
 from halfway.brdf.metrics import MAPPINGS
+from halfway.components import Pca
 from halfway.errors import LibraryError
 from halfway.formats import read_nbrdf_archive
 from halfway.halfdiff import Grid
-from halfway.library import (
-    JUDGING_SCENE,
-    PACING_SCENE,
-    BasisImages,
-    BasisSamples,
-    Pca,
-    ProceduralLibrary,
-    body_colours,
-)
-from halfway.library.basis_samples import body_mask
+from halfway.judge.evaluation import N_STEPS, Bench, evaluate, sample_pairs, uniform
+from halfway.judge.leave_one_out import PaperPlace, _project, hull_weights, leave_one_out
+from halfway.library import ProceduralLibrary
+from halfway.look import JUDGING_SCENE, PACING_SCENE, CellSamples, Looks, body_colours
+from halfway.look.appearance import appearance, cielab_difference, to_lab
+from halfway.look.samples import body_mask
 from halfway.models import AbcModel
 from halfway.space import LinearSpace, PaperSpace, Space, Triangulation
-from halfway.space.evaluation import N_STEPS, Bench, evaluate, sample_pairs, uniform
 from halfway.space.hull import nearest_in_hull
-from halfway.space.leave_one_out import PaperPlace, _project, hull_weights, leave_one_out
 from halfway.space.spaces import Leg
 
 GRID = Grid.merl(10, 8, 12)
@@ -57,10 +51,10 @@ def matte_library(colours: dict[str, list[float]]) -> ProceduralLibrary:
 
 def bench_of(library: ProceduralLibrary, *, size: int = 8, n_cells: int = 400) -> Bench:
     pacing, judging = (
-        BasisImages.fit(library, dataclasses.replace(scene, size=size, n_points=2))
+        Looks.fit(library, dataclasses.replace(scene, size=size, n_points=2))
         for scene in (PACING_SCENE, JUDGING_SCENE)
     )
-    return Bench(pacing, judging, BasisSamples.fit(library, n_cells=n_cells))
+    return Bench(pacing, judging, CellSamples.fit(library, n_cells=n_cells))
 
 
 @dataclasses.dataclass(frozen=True)
@@ -194,7 +188,7 @@ def test_a_pair_that_looks_alike_stays_out_of_the_ratios(bench: Bench, linear: L
 
 def test_samples_of_all_cells_give_the_metrics_themselves(library: ProceduralLibrary):
     """A million draws, half of them even, take each of 600 cells 833 times or more: to 1/833 of its share."""
-    samples = BasisSamples.fit(library, n_cells=1_000_000)
+    samples = CellSamples.fit(library, n_cells=1_000_000)
     brdfs = [library.brdf(name) for name in NAMES]
     for metric in MAPPINGS:
         features = samples.features(samples.values, metric)
@@ -231,13 +225,13 @@ def test_a_material_without_a_body_colour_is_named():
     tables["material-1"] = dataclasses.replace(hidden, values=values)
     library = ProceduralLibrary("two", tables, grid=grid)
     message = "material-1 of two has no measured cell with theta_h above 25 and theta_d below 50"
-    for fit in (body_colours, BasisSamples.fit):
+    for fit in (body_colours, CellSamples.fit):
         with pytest.raises(LibraryError, match=message):
             fit(library)
 
 
 def test_samples_come_back_from_the_cache(library: ProceduralLibrary, tmp_path):
-    first, again = (BasisSamples.fit(library, n_cells=300, cache=tmp_path) for _ in range(2))
+    first, again = (CellSamples.fit(library, n_cells=300, cache=tmp_path) for _ in range(2))
     assert len(list(tmp_path.iterdir())) == 1
     assert (first.values == again.values).all()
     assert (first.body == again.body).all()

@@ -10,12 +10,12 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from halfway.brdf.quality import Quality
 from halfway.errors import OutputError
 from halfway.export.fits import write_fit
 from halfway.export.gltf import to_glb, to_gltf
 from halfway.fit import Fit, Gltf, OpenPbr, Principled
 from halfway.fit.model import AnalyticModel
-from halfway.formats.rgl_quality import Quality
 
 BYTES = {5126: 4, 5123: 2}
 COMPONENTS = {"SCALAR": 1, "VEC3": 3}

@@ -11,11 +11,11 @@ from numpy.testing import assert_allclose
 from strategies import directions
 
 from halfway.brdf import IsotropicModel, TabularBrdf, directional_albedo, tabulate
+from halfway.brdf.quality import Quality
 from halfway.errors import FormatError, HalfwayError
 from halfway.fit import MODELS, Fit, Gltf, OpenPbr, Principled, fit
 from halfway.fit.metric import comparison_pairs
 from halfway.fit.openpbr import eon
-from halfway.formats.rgl_quality import Quality
 from halfway.halfdiff import Grid
 from halfway.models import builtin
 

@@ -9,11 +9,12 @@ from numpy.testing import assert_allclose
 from strategies import TINY, random_tables
 
 from halfway import Recipe, build_library, mix, open_library
+from halfway.cache import cached
+from halfway.components import Pca
 from halfway.errors import LibraryError, OutputError
 from halfway.formats import write_merl
 from halfway.halfdiff import Grid
-from halfway.library import Pca, ProceduralLibrary, StoredLibrary
-from halfway.library.cache import cached
+from halfway.library import ProceduralLibrary, StoredLibrary
 
 
 @pytest.fixture
@@ -236,7 +237,7 @@ def test_the_cache_gives_back_what_was_computed(tmp_path):
 
 def test_a_full_cache_forgets_what_was_used_longest_ago(tmp_path, monkeypatch):
     n_bytes = 3 * 1000 * 8 + 2000
-    monkeypatch.setattr("halfway.library.cache.MOST_BYTES", n_bytes)
+    monkeypatch.setattr("halfway.cache.MOST_BYTES", n_bytes)
     for second, key in enumerate("abc"):
         cached(tmp_path, key, lambda: {"x": np.ones(1000)})
         os.utime(tmp_path / f"{key}.npz", (second, second))

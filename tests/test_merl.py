@@ -11,13 +11,7 @@ from numpy.testing import assert_array_equal
 
 from halfway import MERL, Grid, TabularBrdf
 from halfway.errors import FormatError, OutputError
-from halfway.formats import (
-    MerlFile,
-    encode_header,
-    read_merl,
-    write_merl,
-    write_samples,
-)
+from halfway.formats import MerlFile, encode_header, read_merl, write_merl, write_samples
 from halfway.formats.merl import SCALES
 from halfway.halfdiff import Axis
 

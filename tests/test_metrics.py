@@ -8,7 +8,10 @@ from numpy.testing import assert_allclose
 from skimage import color
 
 from halfway.brdf import TabularBrdf
-from halfway.brdf.image_metrics import (
+from halfway.brdf.metrics import MAPPINGS, difference
+from halfway.errors import FormatError
+from halfway.halfdiff import Axis, Grid, cosines
+from halfway.look.appearance import (
     SHOULDER,
     appearance,
     ciede2000,
@@ -18,9 +21,6 @@ from halfway.brdf.image_metrics import (
     shown,
     to_lab,
 )
-from halfway.brdf.metrics import MAPPINGS, difference
-from halfway.errors import FormatError
-from halfway.halfdiff import Axis, Grid, cosines
 
 GRID = Grid.merl(6, 5, 8)
 numbers = st.integers(0, 2**32 - 1).map(np.random.default_rng)

@@ -10,10 +10,9 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose, assert_array_equal
 
 from halfway import Grid, HalfDiff, from_half_diff
-from halfway.brdf import IsotropicModel
+from halfway.brdf import IsotropicModel, fresnel
 from halfway.errors import LibraryError
 from halfway.models import PUBLISHED, AbcModel, SgdModel, builtin
-from halfway.models.abc import fresnel
 
 UP = np.array([0.0, 0.0, 1.0])
 TINY = Grid.merl(5, 6, 8)

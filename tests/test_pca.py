@@ -11,13 +11,13 @@ from sklearn.decomposition import PCA
 from strategies import random_tables
 
 from halfway import Pca, TabularBrdf, open_library
+from halfway.components.gram import Gram, pack, unpack
+from halfway.components.gram_cache import kept_gram
+from halfway.components.sketch import sketch
 from halfway.errors import LibraryError
 from halfway.export.report import Report, table_row
 from halfway.halfdiff import Grid
 from halfway.library import ProceduralLibrary
-from halfway.library.gram import Gram, pack, unpack
-from halfway.library.gram_cache import kept_gram
-from halfway.library.sketch import sketch
 from halfway.models import synthetic
 
 GRID = Grid.merl(6, 5, 8)
@@ -315,7 +315,7 @@ def doubled(n):
 
 def test_a_large_library_is_sketched(synthetic_300, monkeypatch, tmp_path):
     exact = Pca.fit(synthetic_300, n_components=30)
-    monkeypatch.setattr("halfway.library.pca.MOST_EXACT", 100)
+    monkeypatch.setattr("halfway.components.pca.MOST_EXACT", 100)
     found = Pca.fit(synthetic_300, n_components=30, cache=tmp_path)
     assert_allclose(found.eigenvalues[:, :10], exact.eigenvalues[:, :10], rtol=1e-6)
     k = 10

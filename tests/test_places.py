@@ -12,12 +12,13 @@ from strategies import TINY, random_tables
 from halfway import Pca, Recipe, Route, build_library, mix, open_library
 from halfway.batch import verify
 from halfway.cli import main as halfway
+from halfway.components import compact_library
 from halfway.errors import LibraryError, MissingExtraError, OutputError, RemoteError
 from halfway.export import write_route
 from halfway.files import replacing
 from halfway.formats import write_merl
-from halfway.library import compact_library, verify_library
-from halfway.places import RemotePath, append_text, name_in, read_into, to_place
+from halfway.library import verify_library
+from halfway.locations import RemotePath, append_text, name_in, read_into, to_location
 from halfway.space import LinearSpace
 
 # botocore 1.43 and moto 5.2 call what Python 3.12 and newer deprecate.
@@ -55,8 +56,8 @@ def names(place):
 
 
 def test_a_url_is_remote_and_anything_else_a_path(tmp_path):
-    assert to_place("s3://bucket/x.brdflib/") == RemotePath("s3://bucket/x.brdflib")
-    assert to_place(f"file://{tmp_path}") == to_place(str(tmp_path)) == tmp_path
+    assert to_location("s3://bucket/x.brdflib/") == RemotePath("s3://bucket/x.brdflib")
+    assert to_location(f"file://{tmp_path}") == to_location(str(tmp_path)) == tmp_path
 
 
 def test_the_parts_of_a_url_are_those_of_a_path():

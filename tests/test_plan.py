@@ -8,10 +8,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 from strategies import random_tables
 
+from halfway.components import Pca, PcaPlan, pca
+from halfway.components.gram import Gram
+from halfway.components.sketch import sketch
 from halfway.halfdiff import Grid
-from halfway.library import Pca, PcaPlan, ProceduralLibrary, blocks, pca
-from halfway.library.gram import Gram
-from halfway.library.sketch import sketch
+from halfway.library import ProceduralLibrary, blocks
 from halfway.tasks import Threads
 
 
@@ -43,7 +44,7 @@ def test_working_memory_is_bounded_by_the_plan(monkeypatch, method):
     made = library(60, 48)
     Gram.of(made)  # what loads at first use is no working memory
     if method == "sketch":
-        monkeypatch.setattr("halfway.library.plan.MOST_EXACT", 10)
+        monkeypatch.setattr("halfway.components.plan.MOST_EXACT", 10)
     plan = PcaPlan.of(made, n_components=10, n_threads=2)
     work = {
         "exact": lambda: Gram.of(made, engine=Threads(2)),

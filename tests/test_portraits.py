@@ -9,12 +9,14 @@ import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 from PIL import Image
 
+from halfway._display import recipe_png
 from halfway.brdf import TabularBrdf
-from halfway.brdf.portrait import GAP, PORTRAIT_SCENE, STRIP_SCENE, portrait
 from halfway.halfdiff import Grid
-from halfway.library import ProceduralLibrary, library_called
-from halfway.space import LinearSpace, Recipe, Route
-from halfway.space.portraits import N_SPHERES
+from halfway.library import ProceduralLibrary
+from halfway.look import N_SPHERES, portrait, recipes_png, table_png
+from halfway.look.portraits import GAP, PORTRAIT_SCENE, STRIP_SCENE
+from halfway.recipes import Recipe
+from halfway.space import LinearSpace, Route
 
 GRID = Grid.merl(12, 8, 10)
 
@@ -39,7 +41,7 @@ def pixels(png: bytes | None) -> np.ndarray:
 
 
 def test_a_table_is_a_sphere_of_its_colour_on_nothing() -> None:
-    picture = pixels(matte((0.8, 0.02, 0.02))._repr_png_())
+    picture = pixels(table_png(matte((0.8, 0.02, 0.02))))
     size = PORTRAIT_SCENE.size
     assert picture.shape == (size, size, 4)
     r, g, b, alpha = picture[size // 2, size // 2]
@@ -58,14 +60,16 @@ def test_a_portrait_of_white_is_the_irradiance_of_the_scene() -> None:
 def test_a_recipe_is_the_mix_of_its_materials_portraits(library: ProceduralLibrary) -> None:
     recipe = Recipe.of(library.name, {"red": 0.25, "green": 0.75})
     mixed = matte(tuple(0.25 * np.array([0.8, 0.02, 0.02]) + 0.75 * np.array([0.02, 0.5, 0.02])))
-    assert_allclose(pixels(recipe._repr_png_()), pixels(mixed._repr_png_()), atol=1)
+    shown = recipes_png(library, recipe.names, recipe.weights[:, None])
+    assert_allclose(pixels(shown), pixels(table_png(mixed)), atol=1)
 
 
 def test_a_route_is_a_row_of_spheres_from_its_first_stop_to_its_last(
     library: ProceduralLibrary,
 ) -> None:
     route = Route.through(LinearSpace(library.name, library.names), ["red", "green"])
-    row = pixels(route._repr_png_())
+    weights = route.at(np.linspace(0, 1, N_SPHERES))
+    row = pixels(recipes_png(library, route.names, weights))
     size = STRIP_SCENE.size
     assert row.shape == (size, N_SPHERES * size + (N_SPHERES - 1) * GAP, 4)
     middles = row[size // 2, size // 2 :: size + GAP, :3]
@@ -73,15 +77,23 @@ def test_a_route_is_a_row_of_spheres_from_its_first_stop_to_its_last(
     assert (np.diff(middles[:, 1]) > 0).all()
 
 
-def test_a_recipe_finds_its_library_while_someone_holds_it(library: ProceduralLibrary) -> None:
-    assert library_called("crayons") is library
-    newer = ProceduralLibrary("crayons", {"red": matte((1, 0, 0)), "blue": matte((0, 0, 1))})
-    assert library_called("crayons") is newer
+def test_a_recipe_whose_library_is_out_of_reach_is_text_alone() -> None:
+    assert recipe_png(Recipe.of("nowhere", {"red": 1.0})) is None
+    assert recipe_png(Recipe.of("builtin:merl-abc", {"octarine": 1.0})) is None
 
 
-def test_a_recipe_whose_library_is_out_of_reach_is_text_alone(library: ProceduralLibrary) -> None:
-    assert Recipe.of("nowhere", {"red": 1.0})._repr_png_() is None
-    assert Recipe.of(library.name, {"octarine": 1.0})._repr_png_() is None
+def test_a_notebook_shows_tables_recipes_and_routes_as_spheres() -> None:
+    code = """
+from IPython.core.interactiveshell import InteractiveShell
+shell = InteractiveShell.instance()
+import halfway
+formats, _ = shell.display_formatter.format({value})
+assert formats["image/png"].startswith(b"\\x89PNG"), formats
+"""
+    recipe = 'halfway.Recipe.from_text("builtin:merl-abc", "teflon=1")'
+    table = f"halfway.mix(halfway.open_library('builtin:merl-abc'), {recipe})"
+    for value in (recipe, table):
+        subprocess.run([sys.executable, "-c", code.replace("{value}", value)], check=True)
 
 
 def test_a_route_says_where_it_goes(library: ProceduralLibrary) -> None:
@@ -91,7 +103,8 @@ def test_a_route_says_where_it_goes(library: ProceduralLibrary) -> None:
 
 def test_showing_loads_neither_mitsuba_nor_a_server() -> None:
     code = (
-        "import sys; from halfway import Recipe; Recipe.from_text('builtin:merl-abc', 'teflon=1')._repr_png_();"
+        "import sys; from halfway import Recipe; from halfway._display import recipe_png;"
+        "recipe_png(Recipe.from_text('builtin:merl-abc', 'teflon=1'));"
         "print([m for m in ('mitsuba', 'drjit', 'fastapi', 'matplotlib') if m in sys.modules])"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)

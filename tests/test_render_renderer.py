@@ -10,12 +10,7 @@ from halfway.brdf import TabularBrdf
 from halfway.errors import RenderError
 from halfway.halfdiff import Grid
 from halfway.render import SCENES, Renderer
-from halfway.render.studio import (
-    _on_the_ground,
-    as_bright_as_the_studio,
-    directions,
-    studio,
-)
+from halfway.render.studio import _on_the_ground, as_bright_as_the_studio, directions, studio
 
 GRID = Grid.merl(12, 10, 12)
 

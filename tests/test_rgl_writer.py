@@ -6,9 +6,9 @@ from numpy.testing import assert_allclose
 from rgl_files import directions, fields, plugin_values, viewers
 
 from halfway import MERL, Grid, TabularBrdf, tabulate
+from halfway.brdf.quality import Quality, lit_sphere, quality
 from halfway.errors import OutputError
 from halfway.formats import read_rgl
-from halfway.formats.rgl_quality import Quality, lit_sphere, quality
 from halfway.formats.rgl_reader import from_fields
 from halfway.formats.rgl_writer import RESOLUTIONS, WAVELENGTHS, Resolution, write_rgl
 from halfway.formats.spectra import smooth_primaries

@@ -11,7 +11,8 @@ from strategies import convex_weights
 
 from halfway import LinearSpace, PaperSpace, Pca, Recipe, Route, mix, open_library
 from halfway.errors import OutsideHullError, RecipeError, SpaceError
-from halfway.space import Mixer, make_space
+from halfway.recipes import Mixer
+from halfway.space import make_space
 
 unit = st.floats(0, 1)
 

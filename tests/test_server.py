@@ -15,11 +15,12 @@ from halfway.brdf import TabularBrdf
 from halfway.formats import write_merl
 from halfway.halfdiff import Grid
 from halfway.library import ProceduralLibrary
+from halfway.recipes import Recipe, mix
 from halfway.server import Page, create_app
 from halfway.server.blocks import Block
 from halfway.server.guard import MAX_BODY
 from halfway.server.page import Asset
-from halfway.space import SPACES, Recipe, Route, make_space, mix
+from halfway.space import SPACES, Route, make_space
 
 ROOT = Path(__file__).parents[1]
 HOST = "http://127.0.0.1:8765"

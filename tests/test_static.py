@@ -13,7 +13,8 @@ from typer.testing import CliRunner
 from halfway.cli import app
 from halfway.errors import HalfwayError, LibraryError, OutputError
 from halfway.halfdiff import Grid
-from halfway.library import BasisImages, Library, ProceduralLibrary, Subset, most_different
+from halfway.library import Library, ProceduralLibrary, Subset
+from halfway.look import Looks, most_different
 from halfway.server.blocks import Block
 from halfway.server.page import Asset, Page
 from halfway.server.static import N_LARGEST, export
@@ -132,7 +133,7 @@ def test_the_most_different_materials_are_far_apart() -> None:
         name: type(table)(np.full((3, *grid.shape), shade / np.pi, np.float32), grid)
         for name, shade in shades.items()
     }
-    images = BasisImages.fit(ProceduralLibrary("shades", brdfs, grid=grid))
+    images = Looks.fit(ProceduralLibrary("shades", brdfs, grid=grid))
     assert most_different(images, 2) == ["black", "white"]
     assert most_different(images, 3) in (["black", "grey", "white"], ["black", "gray", "white"])
     with pytest.raises(LibraryError, match=r"5 materials cannot be chosen: expected 2 to 4"):

@@ -10,8 +10,8 @@ from numpy.testing import assert_allclose
 from scipy.spatial import Delaunay
 from strategies import convex_weights, points
 
+from halfway.components import Pca
 from halfway.errors import DegenerateSpaceWarning, OutsideHullError
-from halfway.library import Pca
 from halfway.space import DelaunayWalk, PaperSpace, Triangulation
 from halfway.space.spaces import interpolate
 

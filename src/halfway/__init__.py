@@ -6,19 +6,25 @@ The names below load when first used, so that ``import halfway`` and ``halfway -
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+from ._display import register
+
 if TYPE_CHECKING:
     from .brdf import Brdf, TabularBrdf, directional_albedo, tabulate
+    from .components import Pca
     from .errors import HalfwayError
     from .halfdiff import MERL, Grid, HalfDiff, from_half_diff, to_half_diff
-    from .library import Library, Pca, build_library, open_library
-    from .space import LinearSpace, PaperSpace, Recipe, Route, Space, mix
+    from .library import Library, build_library, open_library
+    from .recipes import Recipe, mix
+    from .space import LinearSpace, PaperSpace, Route, Space
 
 _HOMES = {
     "brdf": ("Brdf", "TabularBrdf", "directional_albedo", "tabulate"),
     "errors": ("HalfwayError",),
     "halfdiff": ("MERL", "Grid", "HalfDiff", "from_half_diff", "to_half_diff"),
-    "library": ("Library", "Pca", "build_library", "open_library"),
-    "space": ("LinearSpace", "PaperSpace", "Recipe", "Route", "Space", "mix"),
+    "components": ("Pca",),
+    "library": ("Library", "build_library", "open_library"),
+    "recipes": ("Recipe", "mix"),
+    "space": ("LinearSpace", "PaperSpace", "Route", "Space"),
 }
 
 __all__ = [
@@ -56,3 +62,6 @@ def __getattr__(name: str) -> Any:
 
 def __dir__() -> list[str]:
     return __all__
+
+
+register()

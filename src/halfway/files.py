@@ -13,7 +13,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from .errors import OutputError
-from .places import Place, RemotePath
+from .locations import Location, RemotePath
 
 try:
     import fcntl
@@ -26,7 +26,7 @@ _TEMPORARY = re.compile(rf"\..+\.[0-9a-f]{{{2 * _TOKEN_BYTES}}}(\.\w+)?")
 
 
 @contextmanager
-def replacing(path: Place) -> Generator[Path]:
+def replacing(path: Location) -> Generator[Path]:
     """A temporary path beside ``path`` that takes its place when the block ends well, and is removed when not.
 
     The temporary name keeps the suffix, so that a writer that chooses its format by the suffix works. What goes to a
@@ -85,7 +85,7 @@ def replacing_folder(path: Path) -> Generator[Path]:
 
 
 @contextmanager
-def explaining(path: Place) -> Generator[None]:
+def explaining(path: Location) -> Generator[None]:
     """Turn what goes wrong while ``path`` is written into one line that says what to do.
 
     Raises
@@ -100,7 +100,7 @@ def explaining(path: Place) -> Generator[None]:
 
 
 @contextmanager
-def scratch_folder(path: Place) -> Generator[Path]:
+def scratch_folder(path: Location) -> Generator[Path]:
     """A folder to make ``path`` in, beside it, or among this machine's temporary files where ``path`` is remote.
 
     It is removed at the end, if it is still there; so are those that killed writers of ``path`` left.
@@ -143,7 +143,7 @@ def lock(folder: Path, *, wait: bool = False) -> Generator[bool]:
             os.close(handle)
 
 
-def sweep(folder: Place) -> None:
+def sweep(folder: Location) -> None:
     """Remove the temporary files that killed writers of `replacing` left in ``folder``; nobody may be writing there."""
     if isinstance(folder, RemotePath):
         return
@@ -152,7 +152,7 @@ def sweep(folder: Place) -> None:
             path.unlink(missing_ok=True)
 
 
-def require_space(folder: Place, n_bytes: int, what: str) -> None:
+def require_space(folder: Location, n_bytes: int, what: str) -> None:
     """Refuse to start what the disk cannot hold; nobody knows what remote storage does.
 
     Raises
@@ -178,7 +178,7 @@ def _remove_dead(folder: Path) -> None:
             shutil.rmtree(folder)
 
 
-def _explain(path: Place, error: OSError) -> str:
+def _explain(path: Location, error: OSError) -> str:
     match error.errno:
         case errno.ENOSPC:
             return f"{path} cannot be written: the disk is full. Free some space; what was finished is kept."

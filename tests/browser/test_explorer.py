@@ -9,7 +9,7 @@ from PIL import Image
 
 from halfway.formats import write_merl
 from halfway.library import ProceduralLibrary
-from halfway.space import Recipe, mix
+from halfway.recipes import Recipe, mix
 
 PAIR = "#space=linear&pace=uniform&stops=cherry-235,gold-paint"
 

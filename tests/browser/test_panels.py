@@ -11,7 +11,7 @@ from playwright.sync_api import Request, Route
 
 from halfway.brdf import directional_albedo
 from halfway.library import ProceduralLibrary
-from halfway.space import Recipe, mix
+from halfway.recipes import Recipe, mix
 
 PYRAMID = b"v 0 2 0\nv 1 0 1\nv 1 0 -1\nv -1 0 -1\nv -1 0 1\nf 1 2 3\nf 1 3 4\nf 1 4 5\nf 1 5 2\nf 5 4 3 2\n"
 SMALL = {"width": 460, "height": 560}

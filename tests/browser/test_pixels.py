@@ -11,7 +11,7 @@ from conftest import Explorer, in_mitsuba, to_linear  # pyright: ignore[reportMi
 
 from halfway.brdf import TabularBrdf, hemisphere
 from halfway.library import ProceduralLibrary
-from halfway.render.pictures import to_srgb
+from halfway.render.pictures import to_8_bit
 from halfway.render.scenes import SCENES, Scene
 from halfway.render.studio import studio
 
@@ -148,9 +148,9 @@ def test_three_lights(explorer: Explorer, library: ProceduralLibrary, name: str)
     brdf = library.brdf(name)
     radiance = under_points(brdf, at, normal, wo)
     radiance /= 2
-    expected = to_srgb(radiance.mean(axis=(1, 2))).astype(int)
+    expected = to_8_bit(radiance.mean(axis=(1, 2))).astype(int)
     # Inside a highlight's edge 16 points do not settle a pixel: compare where the pixel is nearly even.
-    spread = to_srgb(radiance.max(axis=(1, 2))).astype(int) - to_srgb(radiance.min(axis=(1, 2)))
+    spread = to_8_bit(radiance.max(axis=(1, 2))).astype(int) - to_8_bit(radiance.min(axis=(1, 2)))
     even = (spread <= 8).all(axis=-1)
     assert even.sum() > 200
     difference = np.abs(shown.bytes[tuple(pixels.T)][:, :3].astype(int) - expected)[even]
@@ -168,7 +168,7 @@ def test_studio(explorer: Explorer, library: ProceduralLibrary, name: str) -> No
     radiance = np.stack(
         [in_studio(brdf, n, o, environment) for n, o in zip(normal, wo, strict=True)]
     )
-    expected = to_srgb(radiance / 2).astype(float)
+    expected = to_8_bit(radiance / 2).astype(float)
     # The mean over a few pixels around each place: less noise, and the picture is smooth there.
     got = np.stack(
         [shown.bytes[i - 2 : i + 3, j - 2 : j + 3, :3].mean(axis=(0, 1)) for i, j in pixels]

@@ -11,11 +11,11 @@ import pytest
 from conftest import Explorer  # pyright: ignore[reportMissingImports]
 
 from halfway.library import ProceduralLibrary, Subset
+from halfway.recipes import Recipe
 from halfway.server import Page
 from halfway.server.explorer import Explorer as Answers
 from halfway.server.schema import Place
 from halfway.server.static import export
-from halfway.space import Recipe
 
 MATERIALS = (
     "blue-fabric", "cherry-235", "chrome", "gold-paint", "green-plastic", "pink-felt", "red-metallic-paint", "teflon",

@@ -12,11 +12,13 @@ from typing import Any
 import numpy as np
 
 from halfway.brdf import TabularBrdf, directional_albedo
+from halfway.components import Pca
 from halfway.halfdiff import MERL, Grid, HalfDiff, from_half_diff, to_half_diff
-from halfway.library import Pca, ProceduralLibrary
-from halfway.render.pictures import to_srgb
+from halfway.library import ProceduralLibrary
+from halfway.recipes import Recipe
+from halfway.render.pictures import to_8_bit
 from halfway.server.blocks import Block
-from halfway.space import PaperSpace, Recipe, Route
+from halfway.space import PaperSpace, Route
 
 HERE = Path(__file__).parent
 GRID = Grid.merl(4, 3, 6)
@@ -210,7 +212,7 @@ def _colour() -> dict[str, list[float]]:
     linear = [0.0, 0.001, 0.0031308, 0.0032, 0.01, 0.18, 0.5, 0.9, 1.0, 3.0]
     return {
         "linear": linear,
-        "bytes": to_srgb(np.array(linear)[:, None, None] * np.ones(3))[:, 0, 0].tolist(),
+        "bytes": to_8_bit(np.array(linear)[:, None, None] * np.ones(3))[:, 0, 0].tolist(),
     }
 
 

@@ -16,7 +16,7 @@ from typing import Any
 
 from ..errors import OutputError
 from ..files import explaining, require_space, sweep
-from ..places import Place, RemotePath, append_text
+from ..locations import Location, RemotePath, append_text
 from ..tasks import Track, silent
 from .manifest import JOURNAL, Checksum, Entry, Manifest, journal_line, right_files
 
@@ -24,7 +24,9 @@ from .manifest import JOURNAL, Checksum, Entry, Manifest, journal_line, right_fi
 class Batch:
     """The files of a folder, finished or still to be made; open one with `Batch.open`."""
 
-    def __init__(self, folder: Place, outputs: Mapping[str, Any], finished: Container[str]) -> None:
+    def __init__(
+        self, folder: Location, outputs: Mapping[str, Any], finished: Container[str]
+    ) -> None:
         self._folder = folder
         self._outputs = outputs
         self.missing = [name for name in outputs if name not in finished]
@@ -36,7 +38,7 @@ class Batch:
     @contextmanager
     def open(
         cls,
-        folder: Place,
+        folder: Location,
         outputs: Mapping[str, Any],
         *,
         made: Mapping[str, Any],
@@ -81,7 +83,7 @@ class Batch:
 
 
 @contextmanager
-def _folder(folder: Place) -> Generator[None]:
+def _folder(folder: Location) -> Generator[None]:
     """Make the folder; remove it again when nothing came of it."""
     with explaining(folder):
         folder.mkdir(parents=True, exist_ok=True)
@@ -95,7 +97,7 @@ def _folder(folder: Place) -> Generator[None]:
 
 
 @contextmanager
-def _alone(folder: Place) -> Generator[None]:
+def _alone(folder: Location) -> Generator[None]:
     """Hold the folder's lock, which ends with the process however it ends; without one where the system has none."""
     try:
         import fcntl
@@ -122,7 +124,11 @@ def _alone(folder: Place) -> Generator[None]:
 
 
 def _prepare(
-    folder: Place, outputs: Mapping[str, Any], made: Mapping[str, Any], n_bytes: int, track: Track
+    folder: Location,
+    outputs: Mapping[str, Any],
+    made: Mapping[str, Any],
+    n_bytes: int,
+    track: Track,
 ) -> Manifest:
     """Leave what is right, remove what is not, and write the journal's first lines."""
     old = Manifest.read(folder) or Manifest(made)
@@ -147,7 +153,7 @@ def _prepare(
 
 
 def _refuse_others(
-    folder: Place, old: Manifest, outputs: Iterable[str], made: Mapping[str, Any]
+    folder: Location, old: Manifest, outputs: Iterable[str], made: Mapping[str, Any]
 ) -> None:
     if old.made["by"] != made["by"]:
         raise OutputError(

@@ -23,7 +23,7 @@ from typing import Any, NamedTuple
 
 from ..errors import FormatError
 from ..files import replacing
-from ..places import Place, name_in
+from ..locations import Location, name_in
 from ..tasks import Track, run, silent
 
 FORMAT = 1
@@ -40,7 +40,7 @@ class Checksum(NamedTuple):
     sha256: str
 
     @classmethod
-    def of(cls, path: Place) -> "Checksum":
+    def of(cls, path: Location) -> "Checksum":
         with path.open("rb") as file:
             digest = hashlib.file_digest(file, "sha256").hexdigest()
             return cls(file.tell(), digest)
@@ -70,7 +70,7 @@ class Manifest:
     """The finished ones."""
 
     @classmethod
-    def read(cls, folder: Place) -> "Manifest | None":
+    def read(cls, folder: Location) -> "Manifest | None":
         """The folder's manifest; its journal where there is one; None where there is neither.
 
         Raises
@@ -94,7 +94,7 @@ class Manifest:
     def finished(self) -> bool:
         return self.names <= self.entries.keys()
 
-    def write(self, folder: Place) -> None:
+    def write(self, folder: Location) -> None:
         """Write manifest.json; the journal that it was has no more to say."""
         files = {name: self.entries[name].to_json() for name in sorted(self.entries)}
         document = {"format": FORMAT, "made": self.made, "files": files}
@@ -102,7 +102,7 @@ class Manifest:
             temporary.write_text(json.dumps(document, indent=1))
         (folder / JOURNAL).unlink(missing_ok=True)
 
-    def write_journal(self, folder: Place) -> None:
+    def write_journal(self, folder: Location) -> None:
         """Write manifest.jsonl, for `journal_line` to go on with, in place of manifest.json."""
         head = {"format": FORMAT, "made": self.made, "files": sorted(self.names)}
         lines = [json.dumps(head) + "\n"]
@@ -133,7 +133,7 @@ class Verdict(NamedTuple):
         return not (self.missing or self.changed or self.foreign)
 
 
-def verify(folder: Place, *, track: Track = silent) -> Verdict:
+def verify(folder: Location, *, track: Track = silent) -> Verdict:
     """Read every file of a folder and compare it with the manifest.
 
     Raises
@@ -162,14 +162,16 @@ def verify(folder: Place, *, track: Track = silent) -> Verdict:
     )
 
 
-def right_files(folder: Place, entries: Mapping[str, Entry], *, track: Track = silent) -> set[str]:
+def right_files(
+    folder: Location, entries: Mapping[str, Entry], *, track: Track = silent
+) -> set[str]:
     """The names of those entries whose files have the bytes that they had when they were finished."""
     names = list(entries)
     checks = run(partial(_is_right, folder, entries), names, label="Checking", track=track)
     return {name for name, right in zip(names, checks, strict=True) if right}
 
 
-def _is_right(folder: Place, entries: Mapping[str, Entry], name: str) -> bool:
+def _is_right(folder: Location, entries: Mapping[str, Entry], name: str) -> bool:
     path, checksum = folder / name, entries[name].checksum
     try:
         return path.stat().st_size == checksum.n_bytes and Checksum.of(path) == checksum

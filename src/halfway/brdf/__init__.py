@@ -1,23 +1,34 @@
-"""BRDFs: what every material can do, and the tabular kind."""
+"""BRDFs: what every material can do, the tabular kind, and how two of them differ."""
 
 from .albedo import directional_albedo, hemisphere
-from .brdf import Brdf, IsotropicModel
+from .brdf import CELLS_IN_CACHE, Brdf, IsotropicModel
 from .check import ValidityCard, check
-from .metrics import Difference, difference
+from .fresnel import fresnel
+from .metrics import EPSILON, MAPPINGS, Difference, Metric, comparison_cells, difference
+from .quality import Quality, lit_sphere, quality
 from .repair import Repaired, repair
 from .table import TabularBrdf, tabulate
 
 __all__ = [
+    "CELLS_IN_CACHE",
+    "EPSILON",
+    "MAPPINGS",
     "Brdf",
     "Difference",
     "IsotropicModel",
+    "Metric",
+    "Quality",
     "Repaired",
     "TabularBrdf",
     "ValidityCard",
     "check",
+    "comparison_cells",
     "difference",
     "directional_albedo",
+    "fresnel",
     "hemisphere",
+    "lit_sphere",
+    "quality",
     "repair",
     "tabulate",
 ]

@@ -18,6 +18,7 @@ from typing import Any
 import numpy as np
 
 from .._types import Directions, Table, Values
+from ..colour import LUMINANCE
 from ..halfdiff import MERL, Grid, HalfDiff, from_half_diff
 from .albedo_operator import albedos
 from .brdf import Brdf
@@ -29,7 +30,6 @@ ALBEDO_TOLERANCE = 0.005
 STEEP_DEGREES = np.arange(0.0, 81, 5)
 GRAZING_DEGREES = np.array([82.5, 85.0, 87.5, 89.0])
 
-_LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
 _MIRROR = np.array([1.0, -1.0, 1.0])
 _N_PAIRS = 4096
 _STRIDE = 7  # of the cells whose median is taken; no divisor of an axis of the MERL grid
@@ -185,7 +185,7 @@ def _highlight(brdf: Brdf) -> tuple[float | None, float | None]:
     theta_h, phi_d = np.radians(degrees)[:, None], np.pi * (np.arange(8) + 0.5) / 8
     theta_d = np.radians(5.0)
     wi, wo = from_half_diff(HalfDiff(theta_h, np.zeros((1, 1)), np.full((1, 1), theta_d), phi_d))
-    values = brdf.eval(wi, wo) @ _LUMINANCE
+    values = brdf.eval(wi, wo) @ LUMINANCE
     known = np.isfinite(values)
     counts = known.sum(axis=1)
     degrees = degrees[counts > 0]
@@ -201,7 +201,7 @@ def _highlight(brdf: Brdf) -> tuple[float | None, float | None]:
 def _dynamic_range(values: Table) -> float:
     """Largest over median luminance of the finite samples; 1 where all is black."""
     with np.errstate(invalid="ignore"):
-        luminance = _LUMINANCE.astype(np.float32) @ values.reshape(3, -1)
+        luminance = LUMINANCE.astype(np.float32) @ values.reshape(3, -1)
     some = luminance[::_STRIDE]
     median = float(np.median(some[np.isfinite(some)])) if np.isfinite(some).any() else 0.0
     return (

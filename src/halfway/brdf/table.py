@@ -65,11 +65,6 @@ class TabularBrdf(Brdf):
     def __repr__(self) -> str:
         return f"TabularBrdf({self.name!r}, {self.grid})"
 
-    def _repr_png_(self) -> bytes:
-        from .portrait import portrait, to_png
-
-        return to_png([portrait(self.values, self.grid)])
-
     def eval(
         self, wi: Directions, wo: Directions, *, interpolation: Interpolation = "trilinear"
     ) -> Values:

@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..errors import HalfwayError
-from ..places import Place, to_place
+from ..locations import Location, to_location
 
 if TYPE_CHECKING:
     from ..halfdiff import Grid
     from ..library import Library
-    from ..space import Recipe
+    from ..recipes import Recipe
 
 DEFAULT_LIBRARY = "builtin:merl-abc"
 LONGEST_ROUTE = 100_000
@@ -33,7 +33,7 @@ def split_library(words: Sequence[str]) -> tuple[str, list[str]]:
 
 def is_library(word: str) -> bool:
     """Whether a word names a library rather than a material."""
-    path = to_place(word)
+    path = to_location(word)
     return (
         word.startswith("builtin:")
         or path.suffix in (".brdflib", ".brdfc", ".zip")
@@ -95,7 +95,7 @@ def parse_point(text: str) -> np.ndarray:
         ) from None
 
 
-def read_json(path: Place) -> Any:
+def read_json(path: Location) -> Any:
     """The JSON document in a file."""
     try:
         return json.loads(path.read_text())
@@ -110,7 +110,7 @@ def to_recipe(words: Sequence[str]) -> tuple["Library", "Recipe"]:
     name of a material.
     """
     from ..library import open_library
-    from ..space import Recipe
+    from ..recipes import Recipe
 
     where, rest = split_library(words) if words else (DEFAULT_LIBRARY, [])
     if len(rest) != 1:

@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from ..places import to_place
+from ..locations import to_location
 from .console import cache_folder, engine, say, track
 from .options import Scheduler
 
@@ -54,14 +54,15 @@ def compact(
     halfway library compact merl.brdflib -k 36 -o merl.brdfc
     halfway library compact merl_nbrdf.zip -k 108 -o neural.brdfc
     """
-    from halfway.library import Coding, compact_library, open_library
+    from halfway.components import compact_library
+    from halfway.library import Coding, open_library
 
     library = open_library(lib)
     coding = Coding(mapping.value, shared, precision.value)
     with engine(scheduler) as where:
         made = compact_library(
             library,
-            to_place(output),
+            to_location(output),
             n_components=components,
             coding=coding,
             cache=cache_folder(),

@@ -24,11 +24,13 @@ def demo(
 
     Uses the built-in library, which needs no download: published analytic fits of the MERL materials.
     """
+    from halfway.components import Pca
     from halfway.export import write_report, write_route
     from halfway.formats import write_brdf
-    from halfway.library import DEFAULT_LIBRARY, Pca, open_library
+    from halfway.library import DEFAULT_LIBRARY, open_library
+    from halfway.recipes import Mixer
     from halfway.render import BasisPictures, Renderer, pictures
-    from halfway.space import Mixer, Route, make_space
+    from halfway.space import Route, make_space
 
     library = open_library(DEFAULT_LIBRARY)
     say(f"Library {library.name}: {library.origin.description}.")

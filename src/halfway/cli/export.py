@@ -38,7 +38,7 @@ def export(
     halfway export builtin:merl-abc:teflon --for pbrt-v4 -o teflon
     halfway export recipes.json --for pbrt-v2 -o frames
     """
-    from halfway.export.scenes import write_scene
+    from halfway.export import write_scene
 
     from .materials import to_materials
 

@@ -33,7 +33,7 @@ def convert(
     halfway convert builtin:merl-abc:teflon teflon.bsdf --spectral
     halfway convert gold.binary gold.mtlx                               an analytic fit: see halfway fit
     """
-    from halfway.export.fits import MODEL_OF, write_fit
+    from halfway.export import MODEL_OF, write_fit
     from halfway.fit import fit
     from halfway.formats import write_brdf, write_rgl
 
@@ -137,7 +137,7 @@ def _swatch(albedo: "np.ndarray") -> str:
     """Two cells of the material's colour, where stdout is a terminal."""
     if not sys.stdout.isatty():
         return ""
-    from halfway.render.pictures import to_srgb
+    from halfway.render.pictures import to_8_bit
 
-    r, g, b = to_srgb(albedo[None, None])[0, 0]
+    r, g, b = to_8_bit(albedo[None, None])[0, 0]
     return f"\x1b[48;2;{r};{g};{b}m    \x1b[0m"

@@ -51,7 +51,7 @@ def fit(
     halfway fit new.binary --model principled --picture fit.png
     halfway fit builtin:merl-abc                              the errors of a hundred fits
     """
-    from halfway.export.fits import model_of, write_fit
+    from halfway.export import model_of, write_fit
     from halfway.fit import DEFAULT_MODEL
     from halfway.fit import fit as fitted
 
@@ -77,8 +77,7 @@ def fit(
         write_fit(output, fits[0])
         say(f"{output}: {fits[0].name}")
     if picture:
-        from halfway.render import pictures
-        from halfway.render.fits import fit_sheet
+        from halfway.render import fit_sheet, pictures
 
         pictures.write(picture, fit_sheet(materials[0].table(), fits[0]))
         say(f"{picture}: the table, the fit, the difference; below, in Mitsuba")

@@ -48,7 +48,7 @@ def build(
     halfway library build mine.brdflib new.binary -o mine.brdflib
     """
     from halfway.library import Origin, build_library
-    from halfway.places import to_place
+    from halfway.locations import to_location
 
     from .arguments import parse_grid
 
@@ -56,7 +56,7 @@ def build(
     with engine(scheduler) as where:
         built = build_library(
             sources,
-            to_place(output),
+            to_location(output),
             origin=origin,
             grid=parse_grid(grid) if grid else None,
             track=track,

@@ -11,8 +11,8 @@ from ..brdf import Brdf, TabularBrdf, tabulate
 from ..formats import read_brdf
 from ..halfdiff import MERL
 from ..library import Library, open_library
-from ..places import SCHEME, Place, RemotePath, to_place
-from ..space import Mixer, Recipe
+from ..locations import SCHEME, Location, RemotePath, to_location
+from ..recipes import Mixer, Recipe
 from .arguments import ArgumentError, address, is_library, read_json, to_recipe
 from .console import say
 
@@ -65,7 +65,7 @@ def file_names(materials: Sequence[Material], suffix: str) -> list[str]:
 
 
 def _materials(word: str) -> Iterator[Material]:
-    path = to_place(word)
+    path = to_location(word)
     if (path / "recipes.json").exists():
         yield from _route(path / "recipes.json")
     elif path.name == "recipes.json" and path.exists():
@@ -123,7 +123,7 @@ def _folder(folder: Path) -> Iterator[Material]:
     yield from map(_file, files)
 
 
-def _route(path: Place) -> Iterator[Material]:
+def _route(path: Location) -> Iterator[Material]:
     document = read_json(path)
     try:
         library = open_library(address(document) or document["library"])

@@ -34,8 +34,8 @@ def mix(
     """
     from halfway.formats import write_brdf
     from halfway.library import open_library
+    from halfway.recipes import mix as mixed
     from halfway.space import anchored_space
-    from halfway.space import mix as mixed
 
     from .arguments import DEFAULT_LIBRARY, ArgumentError, parse_point, to_recipe
 

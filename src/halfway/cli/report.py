@@ -37,9 +37,10 @@ def report(
     halfway report merl_nbrdf.zip --pairs 200
     halfway report builtin:synthetic-2000 --dry-run
     """
+    from halfway.components import Pca, PcaPlan
     from halfway.export import compare_spaces, write_report
-    from halfway.library import Pca, PcaPlan, open_library
-    from halfway.places import to_place
+    from halfway.library import open_library
+    from halfway.locations import to_location
 
     library = open_library(lib)
     if dry_run:
@@ -59,7 +60,7 @@ def report(
             compared = compare_spaces(
                 library, pca, n_pairs=n_pairs, seed=seed, cache=cache, track=track, engine=where
             )
-    found = write_report(to_place(output), library, pca, spaces=compared)
+    found = write_report(to_location(output), library, pca, spaces=compared)
     if as_json:
         print(json.dumps(found.to_json(), indent=1))
     else:

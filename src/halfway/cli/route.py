@@ -33,8 +33,9 @@ def route(
     import numpy as np
 
     from halfway.export import write_route
-    from halfway.library import BasisImages, open_library
-    from halfway.places import to_place
+    from halfway.library import open_library
+    from halfway.locations import to_location
+    from halfway.look import Looks
     from halfway.space import LinearSpace, Route, make_space, perceptual
 
     from .arguments import parse_t, require_length, split_library
@@ -61,14 +62,14 @@ def route(
         )
         found = Route.through(made, stops)
         if pace is Pace.perceptual:
-            images = BasisImages.fit(library, cache=cache_folder(), track=track, engine=place)
+            images = Looks.fit(library, cache=cache_folder(), track=track, engine=place)
             found = perceptual(found, images)
         ts = wanted or found.steps(n)
         if as_json:
             print(json.dumps(found.to_json(ts)))
         if output is None and as_json:
             return
-        folder = to_place(output or "-to-".join(stops))
+        folder = to_location(output or "-to-".join(stops))
         written = write_route(folder, found, ts, library, format=format, track=track, engine=place)
     tables = f", {written.n_written} tables written" if format != "none" else ""
     kept = f", {written.n_kept} kept" if written.n_kept else ""

@@ -27,9 +27,9 @@ def verify(
     halfway verify frames --json
     """
     from halfway.batch import verify as verified
-    from halfway.places import to_place
+    from halfway.locations import to_location
 
-    found = verified(to_place(folder), track=track)
+    found = verified(to_location(folder), track=track)
     kinds = {"missing": found.missing, "changed": found.changed, "foreign": found.foreign}
     if as_json:
         document = {"format": 1, "folder": folder, "ok": found.ok, "right": found.n_right}

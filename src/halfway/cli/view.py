@@ -55,9 +55,9 @@ def view(
 
 
 def _export(library: "Library", folder: Path, materials: str, n: int | None) -> None:
-    from halfway.library import BasisImages, Subset, most_different
-    from halfway.server import Page
-    from halfway.server.static import export, require_own
+    from halfway.library import Subset
+    from halfway.look import Looks, most_different
+    from halfway.server import Page, export, require_own
 
     from .arguments import ArgumentError
 
@@ -66,7 +66,7 @@ def _export(library: "Library", folder: Path, materials: str, n: int | None) -> 
     require_own(folder)
     names = [name.strip() for name in materials.split(",") if name.strip()]
     if not names:
-        images = BasisImages.fit(library, cache=cache_folder(), track=track)
+        images = Looks.fit(library, cache=cache_folder(), track=track)
         names = most_different(images, min(N_EXPORTED, len(library)) if n is None else n)
     written = export(Subset(library, names), folder, Page.load(), cache=cache_folder(), track=track)
     say(f"{folder}: {', '.join(names)}")

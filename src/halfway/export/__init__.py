@@ -1,6 +1,21 @@
 """What leaves the package: routes as tables, reports."""
 
-from .report import Report, compare_spaces, write_report
+from . import figures
+from .fits import MODEL_OF, model_of, write_fit
+from .report import Report, TableRow, compare_spaces, write_report
 from .routes import Written, write_route
+from .scenes import write_scene
 
-__all__ = ["Report", "Written", "compare_spaces", "write_report", "write_route"]
+__all__ = [
+    "MODEL_OF",
+    "Report",
+    "TableRow",
+    "Written",
+    "compare_spaces",
+    "figures",
+    "model_of",
+    "write_fit",
+    "write_report",
+    "write_route",
+    "write_scene",
+]

@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..components import Pca
 from ..files import replacing
-from ..library import Pca
-from ..places import Place
+from ..locations import Location
 from ..space import Triangulation
 
 if TYPE_CHECKING:
@@ -118,7 +118,7 @@ def spaces(measured: Sequence[Mapping[str, Any]], label: str) -> "Figure":
         return figure
 
 
-def write(stem: Place, figure: "Figure") -> None:
+def write(stem: Location, figure: "Figure") -> None:
     """Write a figure as ``stem.png`` and ``stem.svg``."""
     for suffix in (".png", ".svg"):
         with replacing(stem.with_suffix(suffix)) as temporary:

@@ -12,20 +12,13 @@ from typing import Any
 
 import numpy as np
 
+from ..components import Pca
 from ..files import replacing
-from ..library import Library, Pca
-from ..places import Place
-from ..space import (
-    SPACES,
-    AnchoredPlace,
-    Bench,
-    PaperPlace,
-    evaluate,
-    leave_one_out,
-    make_space,
-    sample_pairs,
-)
-from ..space.recipe import CHANNELS
+from ..judge import AnchoredPlace, Bench, PaperPlace, evaluate, leave_one_out, sample_pairs
+from ..library import Library
+from ..locations import Location
+from ..recipes import CHANNELS
+from ..space import SPACES, make_space
 from ..tasks import THREADS, Engine, Track, silent
 from . import figures
 
@@ -60,7 +53,7 @@ class Report:
     table_1: tuple[TableRow, ...]
     eigenvalues: Mapping[str, list[float]]
     spaces: tuple[Mapping[str, Any], ...] = ()
-    """Measures of each space: `halfway.space.Evaluation` and `halfway.space.LeaveOneOut`, as JSON."""
+    """Measures of each space: `halfway.judge.Evaluation` and `halfway.judge.LeaveOneOut`, as JSON."""
 
     def to_json(self) -> dict[str, Any]:
         """The document that ``halfway report --json`` prints."""
@@ -121,7 +114,7 @@ def compare_spaces(
 
 
 def write_report(
-    folder: Place, library: Library, pca: Pca, *, spaces: Sequence[Mapping[str, Any]] = ()
+    folder: Location, library: Library, pca: Pca, *, spaces: Sequence[Mapping[str, Any]] = ()
 ) -> Report:
     """Write report.json and the figures into ``folder``; ``spaces`` are those of `compare_spaces`."""
     report = replace(Report.of(library, pca), spaces=tuple(spaces))

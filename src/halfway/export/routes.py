@@ -23,12 +23,11 @@ from ..batch import Batch, Checksum
 from ..brdf import TabularBrdf
 from ..errors import OutputError
 from ..files import replacing
-from ..formats import write_brdf
-from ..formats.content import merl_bytes
-from ..library import Library
-from ..library.stored import DESCRIPTION
-from ..places import Place, absolute, name_in
-from ..space import Mixer, Recipe, Route
+from ..formats import merl_bytes, write_brdf
+from ..library import DESCRIPTION, Library
+from ..locations import Location, absolute, name_in
+from ..recipes import Mixer, Recipe
+from ..space import Route
 from ..tasks import THREADS, Engine, Track, run, silent
 from . import zarr_tables
 
@@ -47,7 +46,7 @@ class Written(NamedTuple):
 
 
 def write_route(
-    folder: Place,
+    folder: Location,
     route: Route,
     ts: Sequence[float],
     library: Library,
@@ -159,14 +158,14 @@ def _sha256(text: str) -> str:
     return hashlib.sha256(text.encode()).hexdigest()
 
 
-def _write_text(path: Place, text: str) -> Checksum:
+def _write_text(path: Location, text: str) -> Checksum:
     with replacing(path) as temporary:
         temporary.write_text(text)
         return Checksum.of(temporary)
 
 
 def _write_table(
-    mixer: Mixer, write: Callable[[Path, TabularBrdf], None], task: tuple[Place, Recipe]
+    mixer: Mixer, write: Callable[[Path, TabularBrdf], None], task: tuple[Location, Recipe]
 ) -> Checksum:
     path, recipe = task
     with replacing(path) as temporary:

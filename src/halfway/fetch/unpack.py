@@ -7,7 +7,7 @@ from pathlib import Path, PurePosixPath, PureWindowsPath
 
 from ..errors import FetchError
 from ..files import replacing, require_space
-from ..formats.sources import UNREADABLE
+from ..formats import UNREADABLE
 
 MAX_RATIO = 100
 """Bytes of a member for each byte in the zip, at most; tables compress to a half or so."""

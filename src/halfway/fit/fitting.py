@@ -12,9 +12,8 @@ from typing import Any
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from ..brdf import Brdf, directional_albedo
+from ..brdf import Brdf, Quality, directional_albedo, lit_sphere, quality
 from ..errors import HalfwayError
-from ..formats.rgl_quality import Quality, lit_sphere, quality
 from .gltf import Gltf
 from .metric import Target, Terms
 from .model import AnalyticModel, Vector

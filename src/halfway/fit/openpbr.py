@@ -29,7 +29,7 @@ from typing import Any, ClassVar, NamedTuple
 import numpy as np
 
 from .._types import Angle
-from ..models.abc import fresnel
+from ..brdf import fresnel
 from .microfacet import f0_of_ior, ggx, schlick, smith_correlated
 from .model import ROUGHNESSES, AnalyticModel, Colour, Range, channels
 

@@ -23,7 +23,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from .._types import Angle
-from ..models.abc import fresnel
+from ..brdf import fresnel
 from .microfacet import ggx, gtr1, schlick, smith
 from .model import ROUGHNESSES, AnalyticModel, Colour, Range, channels
 

@@ -1,14 +1,19 @@
 """File formats of BRDFs. A file is what its first bytes say, whatever its name."""
 
+from .content import merl_bytes
 from .find import Credit, Found, Skipped, find_brdfs, read_brdf, read_nbrdf_archive
 from .merl import MerlFile, encode_header, read_merl, write_merl, write_samples
 from .nbrdf import NeuralBrdf, read_nbrdf
 from .rgl import RglBrdf
 from .rgl_reader import read_rgl
 from .rgl_writer import write_rgl
+from .sources import UNREADABLE
+from .spectra import WAVELENGTHS, smooth_primaries
 from .write import write_brdf
 
 __all__ = [
+    "UNREADABLE",
+    "WAVELENGTHS",
     "Credit",
     "Found",
     "MerlFile",
@@ -17,11 +22,13 @@ __all__ = [
     "Skipped",
     "encode_header",
     "find_brdfs",
+    "merl_bytes",
     "read_brdf",
     "read_merl",
     "read_nbrdf",
     "read_nbrdf_archive",
     "read_rgl",
+    "smooth_primaries",
     "write_brdf",
     "write_merl",
     "write_rgl",

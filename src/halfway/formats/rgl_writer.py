@@ -20,10 +20,10 @@ from typing import NamedTuple
 import numpy as np
 
 from .._types import Directions
-from ..brdf import Brdf
+from ..brdf import Brdf, Quality, lit_sphere, quality
+from ..colour import LUMINANCE
 from .rgl import RglBrdf
 from .rgl_normals import Normals
-from .rgl_quality import Quality, lit_sphere, quality
 from .rgl_reader import from_fields
 from .rgl_warp import Interpolant, Warp, slices
 from .spectra import WAVELENGTHS, smooth_primaries
@@ -31,7 +31,6 @@ from .tensor_file import write_tensor_file
 
 _GRAZING = np.pi / 2 - 1e-3
 _LEAST_COSINE = 1e-4
-_LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
 _LEAST_LIGHT = (
     1e-4  # of the mean: beside a bright node, what is interpolated must be sampled now and then
 )
@@ -155,7 +154,7 @@ def _slice(
     area = normals.density_at(u_theta) * np.maximum(m @ i, 0) * u_theta * np.hypot(m[:, 0], m[:, 1])
     area = np.divide(area, crowding[:, 0], out=np.zeros_like(area), where=crowding[:, 0] > 0)
     # f_r cos(theta_o) times the area of directions that a piece of the unit square stands for
-    light = np.where(o[:, 2] > 0, area, 0).reshape(size, size) * (rgb @ _LUMINANCE)
+    light = np.where(o[:, 2] > 0, area, 0).reshape(size, size) * (rgb @ LUMINANCE)
     # The smallest summand keeps the density of a black material positive.
     return rgb, light + _LEAST_LIGHT * light.mean() + 1e-30
 

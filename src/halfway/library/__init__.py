@@ -1,44 +1,38 @@
-"""Libraries: sets of materials on one grid, and their principal components."""
+"""Libraries: sets of materials on one grid, stored, computed when asked for, or compact."""
 
-from ..brdf.sphere import JUDGING_SCENE, PACING_SCENE, BasisScene, SphereOperator
-from .basis import BasisImages
-from .basis_samples import BasisSamples, body_colours
+from .blocks import columns_per_piece, ranges
 from .building import build_library
-from .coding import Coding
-from .compact import CompactLibrary
-from .compacting import compact_library
-from .library import Library, Origin
-from .opening import DEFAULT_LIBRARY, library_called, open_library
-from .pca import Pca
-from .plan import PcaPlan
+from .coding import Coding, Mapping, Precision
+from .compact import SUFFIX, Arrays, CompactLibrary, Header, arrays_checksum, write_compact
+from .library import Library, Origin, Streamed
+from .opening import DEFAULT_LIBRARY, open_library
 from .procedural import ProceduralLibrary
-from .stored import StoredLibrary
-from .subset import Subset, most_different
+from .stored import DESCRIPTION, StoredLibrary
+from .subset import Subset
 from .verifying import Verdict, verify_library
 
 __all__ = [
     "DEFAULT_LIBRARY",
-    "JUDGING_SCENE",
-    "PACING_SCENE",
-    "BasisImages",
-    "BasisSamples",
-    "BasisScene",
+    "DESCRIPTION",
+    "SUFFIX",
+    "Arrays",
     "Coding",
     "CompactLibrary",
+    "Header",
     "Library",
+    "Mapping",
     "Origin",
-    "Pca",
-    "PcaPlan",
+    "Precision",
     "ProceduralLibrary",
-    "SphereOperator",
     "StoredLibrary",
+    "Streamed",
     "Subset",
     "Verdict",
-    "body_colours",
+    "arrays_checksum",
     "build_library",
-    "compact_library",
-    "library_called",
-    "most_different",
+    "columns_per_piece",
     "open_library",
+    "ranges",
     "verify_library",
+    "write_compact",
 ]

@@ -19,10 +19,9 @@ from .._types import Table
 from ..brdf import TabularBrdf
 from ..errors import LibraryError, OutputError
 from ..files import lock, require_space, scratch_folder
-from ..formats import Found, Skipped, find_brdfs
-from ..formats.find import Credit
+from ..formats import Credit, Found, Skipped, find_brdfs
 from ..halfdiff import MERL, Grid
-from ..places import Place, RemotePath, to_place
+from ..locations import Location, RemotePath, to_location
 from ..tasks import THREADS, Engine, Track, run, silent
 from .compact import SUFFIX as COMPACT_SUFFIX
 from .compact import CompactLibrary
@@ -48,7 +47,7 @@ class Built(NamedTuple):
 
 def build_library(
     sources: Sequence[str | Path],
-    path: Place,
+    path: Location,
     *,
     origin: Origin | None = None,
     grid: Grid | None = None,
@@ -125,14 +124,14 @@ def _put(folder: Path, path: RemotePath, tables: str) -> None:
         old.unlink(missing_ok=True)
 
 
-def _refuse_foreign_folder(path: Place) -> None:
+def _refuse_foreign_folder(path: Location) -> None:
     if path.exists() and not (path / DESCRIPTION).exists():
         raise OutputError(
             f"{path} exists and is no library: it is not replaced. Choose another name with -o."
         )
 
 
-def find_materials(sources: Sequence[str | Place]) -> tuple[list[Found], list[Skipped]]:
+def find_materials(sources: Sequence[str | Location]) -> tuple[list[Found], list[Skipped]]:
     """The materials of the libraries among the sources, then the BRDFs in the others.
 
     Raises
@@ -144,7 +143,7 @@ def find_materials(sources: Sequence[str | Place]) -> tuple[list[Found], list[Sk
     """
     libraries = [source for source in sources if _is_library(source)]
     others = [str(source) for source in sources if source not in libraries]
-    kept = [item for source in libraries for item in _materials(to_place(source))]
+    kept = [item for source in libraries for item in _materials(to_location(source))]
     found, skipped = find_brdfs(others)
     origins: dict[str, str] = {}
     for item in [*kept, *found]:
@@ -157,14 +156,14 @@ def find_materials(sources: Sequence[str | Place]) -> tuple[list[Found], list[Sk
     return [*kept, *found], skipped
 
 
-def _is_library(source: str | Place) -> bool:
+def _is_library(source: str | Location) -> bool:
     if str(source).startswith("builtin:"):
         return False
-    place = to_place(source)
+    place = to_location(source)
     return place.suffix == COMPACT_SUFFIX or (place / DESCRIPTION).exists()
 
 
-def _materials(place: Place) -> list[Found]:
+def _materials(place: Location) -> list[Found]:
     if place.suffix == COMPACT_SUFFIX:
         library = CompactLibrary(place)
         origins = [(str(place), checksum) for checksum in library.material_checksums]

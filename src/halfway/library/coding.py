@@ -22,7 +22,7 @@ import numpy as np
 from jaxtyping import Float
 
 from .._types import Rows
-from ..brdf.metrics import EPSILON, comparison_cells
+from ..brdf import EPSILON, comparison_cells
 from ..halfdiff import Grid
 
 Mapping = Literal["log", "linear"]

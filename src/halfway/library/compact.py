@@ -40,7 +40,7 @@ from .._types import Rows, Table
 from ..errors import LibraryError
 from ..files import replacing
 from ..halfdiff import Axis, Grid
-from ..places import Place, absolute
+from ..locations import Location, absolute
 from .blocks import columns_per_block, ranges
 from .coding import Coding, Mapping, Precision
 from .library import Library, Origin, material_checksum, texts
@@ -90,7 +90,7 @@ class CompactLibrary(Library):
         When the file is no compact library, one of a newer format, or damaged.
     """
 
-    def __init__(self, path: Place) -> None:
+    def __init__(self, path: Location) -> None:
         self.path = path
         self.header = _read_header(path)
         self.name = str(path)
@@ -174,7 +174,7 @@ class CompactLibrary(Library):
         return np.append(0, np.cumsum(self._mask))
 
 
-def is_compact(path: Place) -> bool:
+def is_compact(path: Location) -> bool:
     """Whether a file is a compact library, or is called like one."""
     if path.suffix == SUFFIX:
         return True
@@ -193,7 +193,7 @@ def arrays_checksum(names: tuple[str, ...], grid: Grid, coding: Coding, arrays: 
     return digest.hexdigest()
 
 
-def write_compact(path: Place, header: Header, arrays: Arrays) -> None:
+def write_compact(path: Location, header: Header, arrays: Arrays) -> None:
     """Write a compact library.
 
     Raises
@@ -226,7 +226,7 @@ def write_compact(path: Place, header: Header, arrays: Arrays) -> None:
                 member.write(little.data)
 
 
-def _read_header(path: Place) -> Header:
+def _read_header(path: Location) -> Header:
     document = _parsed(path)
     version = document.get("format")
     if version != FORMAT:
@@ -253,7 +253,7 @@ def _read_header(path: Place) -> Header:
         raise _damaged(path, f"{HEADER} lacks what a compact library needs ({error})") from None
 
 
-def _parsed(path: Place) -> dict[str, Any]:
+def _parsed(path: Location) -> dict[str, Any]:
     try:
         with path.open("rb") as file, zipfile.ZipFile(file) as archive:
             if archive.getinfo(HEADER).file_size > LARGEST_HEADER:
@@ -266,7 +266,7 @@ def _parsed(path: Place) -> dict[str, Any]:
     return document
 
 
-def _read_arrays(path: Place, header: Header) -> Arrays:
+def _read_arrays(path: Location, header: Header) -> Arrays:
     n_bases, k = header.coding.n_bases, header.n_components
     n_rows = 3 * len(header.names) // n_bases
     try:
@@ -298,14 +298,14 @@ def _member(archive: zipfile.ZipFile, name: str, dtype: str, shape: tuple[int, .
     return np.frombuffer(archive.read(name), dtype).reshape(shape)
 
 
-def _damaged(path: Place, what: str) -> LibraryError:
+def _damaged(path: Location, what: str) -> LibraryError:
     return LibraryError(
         f"{path} is no sound compact library: {what}. `halfway library compact LIB -o {path}` makes one."
     )
 
 
 @lru_cache(maxsize=1)
-def _opened(path: Place, checksum: str) -> CompactLibrary:
+def _opened(path: Location, checksum: str) -> CompactLibrary:
     """The library that another process means; the last one stays open, with its numbers."""
     library = CompactLibrary(path)
     if library.checksum != checksum:

@@ -7,7 +7,8 @@ A library is a set of N materials on one grid of p cells (the paper's "basis of 
     blocks()        column ranges that are cheap to read, together all p
     columns(range)  the samples of all materials on one range, (3, N, n)
 
-There are two kinds behind this interface: *stored* on disk, and *procedural*, computed when asked for.
+There are three kinds behind this interface: *stored* on disk, *procedural*, computed when asked for, and *compact*,
+reconstructed from principal components.
 """
 
 import hashlib
@@ -15,10 +16,8 @@ from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass
 from difflib import get_close_matches
-from itertools import count
 from shlex import quote
-from typing import Any, TypeVar
-from weakref import WeakValueDictionary
+from typing import Any
 
 import numpy as np
 from jaxtyping import Float32
@@ -37,13 +36,6 @@ class Origin:
     """One line; says "stand-in" where the materials are fits and not measurements."""
     source: str = ""
     licence: str = ""
-
-
-L = TypeVar("L", bound="Library")
-
-# A recipe knows its library by name; this finds it again while someone holds it. Weak: nothing is kept alive.
-_IN_USE: WeakValueDictionary[int, "Library"] = WeakValueDictionary()
-_ORDER = count()
 
 
 class Streamed(ABC):
@@ -83,11 +75,6 @@ class Library(Streamed):
     def address(self) -> str:
         """What `open_library` finds it by, from any folder of this machine."""
         return self.name
-
-    def __new__(cls: type[L], *_: Any, **__: Any) -> L:
-        library = object.__new__(cls)
-        _IN_USE[next(_ORDER)] = library
-        return library
 
     @abstractmethod
     def row(self, i: int) -> Table:
@@ -132,12 +119,6 @@ def texts(fields: Mapping[str, Any]) -> Mapping[str, str]:
         if not isinstance(value, str):
             raise TypeError(f"{key} is {value!r}, and no text")
     return fields
-
-
-def in_use(name: str) -> Library | None:
-    """The library called ``name`` that was made last, of those that this process still holds."""
-    libraries = [library for _, library in sorted(_IN_USE.items())]
-    return next((lib for lib in reversed(libraries) if getattr(lib, "name", None) == name), None)
 
 
 def material_checksum(name: str, grid: Grid, content: bytes) -> str:

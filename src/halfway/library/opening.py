@@ -11,11 +11,11 @@ from pathlib import Path
 
 from ..errors import LibraryError
 from ..formats import read_nbrdf_archive
+from ..locations import Location, RemotePath, to_location
 from ..models import BUILTIN, builtin
-from ..places import Place, RemotePath, to_place
 from .compact import SUFFIX as COMPACT_SUFFIX
 from .compact import CompactLibrary, is_compact
-from .library import Library, Origin, in_use
+from .library import Library, Origin
 from .procedural import ProceduralLibrary
 from .stored import StoredLibrary
 
@@ -23,7 +23,7 @@ BUILTIN_PREFIX = "builtin:"
 DEFAULT_LIBRARY = "builtin:merl-abc"
 
 
-def open_library(where: str | Place) -> Library:
+def open_library(where: str | Location) -> Library:
     """The library called ``where``: ``builtin:NAME``, a library folder (or its URL), or an archive of neural fits.
 
     Raises
@@ -35,7 +35,7 @@ def open_library(where: str | Place) -> Library:
         models = builtin(str(where).removeprefix(BUILTIN_PREFIX))
         origin = Origin(models.description, models.source, models.licence)
         return ProceduralLibrary(str(where), models.models, origin=origin)
-    path = to_place(where)
+    path = to_location(where)
     if isinstance(path, RemotePath):
         return CompactLibrary(path) if path.suffix == COMPACT_SUFFIX else StoredLibrary(path)
     if path.is_dir():
@@ -54,14 +54,6 @@ def open_library(where: str | Place) -> Library:
         + ", ".join(f"{BUILTIN_PREFIX}{name}" for name in BUILTIN)
         + "."
     )
-
-
-def library_called(name: str) -> Library:
-    """The library that a recipe or a route calls ``name``: one in use, or else what `open_library` finds.
-
-    A stored library is called like its folder without where that is, so it is found only while the caller holds it.
-    """
-    return in_use(name) or open_library(name)
 
 
 def _open_archive(path: Path) -> Library:

@@ -29,7 +29,7 @@ import numpy as np
 from .._types import Rows, Table
 from ..errors import LibraryError
 from ..halfdiff import Axis, Grid
-from ..places import Place, RemotePath, absolute, read_into
+from ..locations import Location, RemotePath, absolute, read_into
 from .blocks import columns_per_block, ranges
 from .library import Library, Origin, material_checksum, texts
 
@@ -60,7 +60,7 @@ class StoredLibrary(Library):
         When the folder holds no library, one of a newer format, or tables that do not fit its description.
     """
 
-    def __init__(self, path: Place) -> None:
+    def __init__(self, path: Location) -> None:
         self.path = path
         """Its folder."""
         description = None
@@ -155,7 +155,7 @@ def library_checksum(entries: Sequence[Entry], grid: Grid) -> str:
     return hashlib.sha256(repr((parts, grid)).encode()).hexdigest()
 
 
-def tables_name(checksum: str, path: Place) -> str:
+def tables_name(checksum: str, path: Location) -> str:
     """What the file of the tables of a library with this checksum is called.
 
     Nobody can be kept from putting files at a URL meanwhile: there the name is used once.
@@ -174,7 +174,7 @@ def npy_header(shape: tuple[int, ...]) -> bytes:
 
 
 @lru_cache(maxsize=8)
-def _opened(path: Place, checksum: str) -> StoredLibrary:
+def _opened(path: Location, checksum: str) -> StoredLibrary:
     """The library that another process means; descriptions of a few stay open, tables are not held."""
     library = StoredLibrary(path)
     if library.checksum != checksum:
@@ -191,7 +191,7 @@ def _tables_name(name: str) -> str:
     return name
 
 
-def _read_description(path: Place) -> dict[str, Any]:
+def _read_description(path: Location) -> dict[str, Any]:
     try:
         description = json.loads((path / DESCRIPTION).read_text())
         version = description["format"]

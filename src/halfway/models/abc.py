@@ -16,7 +16,7 @@ from typing import ClassVar
 import numpy as np
 
 from .._types import Angle
-from ..brdf import IsotropicModel
+from ..brdf import IsotropicModel, fresnel
 from .grazing import GRAZING_DEGREES, held
 
 
@@ -64,10 +64,3 @@ class AbcModel(IsotropicModel):
         glossy = D * F / np.pi * (G / (cos_i * cos_o))
         diffuse = (self.kD / np.pi).reshape(3, *[1] * glossy.ndim)
         return np.multiply.outer(self.A, glossy) + diffuse
-
-
-def fresnel(cosine: Angle, ior: float) -> Angle:
-    """Unpolarised reflectance in [0, 1] of a dielectric of index ``ior`` >= 1 met from air at this cosine."""
-    g = np.sqrt(ior**2 - 1 + cosine**2)
-    across = ((g - cosine) / (g + cosine)) ** 2
-    return across / 2 * (1 + ((cosine * (g + cosine) - 1) / (cosine * (g - cosine) + 1)) ** 2)

@@ -28,8 +28,7 @@ import numpy as np
 from jaxtyping import Float32
 
 from .._types import Angle, Part
-from ..brdf import IsotropicModel
-from ..brdf.brdf import CELLS_IN_CACHE
+from ..brdf import CELLS_IN_CACHE, IsotropicModel
 from ..halfdiff import Grid
 from .grazing import GRAZING_DEGREES, held
 

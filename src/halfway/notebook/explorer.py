@@ -15,12 +15,10 @@ from traitlets import Float, Instance, List, Unicode, default, observe, validate
 
 from ..errors import HalfwayError, SpaceError
 from ..library import DEFAULT_LIBRARY, Library, open_library
-from ..server.app import app_of
-from ..server.explorer import PACES
-from ..server.explorer import Explorer as Answers
-from ..server.page import refresh
-from ..server.schema import Place
-from ..space import SPACES, LinearSpace, Recipe, Route
+from ..recipes import Recipe
+from ..server import PACES, Place, app_of, refresh
+from ..server import Explorer as Answers
+from ..space import SPACES, LinearSpace, Route
 from ..tasks import Track, silent
 from .messages import Answerer
 

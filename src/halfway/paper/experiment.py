@@ -11,11 +11,12 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Float64
 
-from ..brdf.image_metrics import appearance, ciede2000_difference, cielab_difference
+from ..components import Pca
 from ..errors import LibraryError
-from ..library import BasisImages, Library, Pca
-from ..space import Bench, Route, Space, evaluate, make_space
-from ..space.evaluation import uniform
+from ..judge import Bench, evaluate, uniform
+from ..library import Library
+from ..look import Looks, appearance, ciede2000_difference, cielab_difference
+from ..space import Route, Space, make_space
 from ..tasks import Track, silent
 from .reported import FINE_TS, N_STEPS, RUNS, Run
 
@@ -26,7 +27,7 @@ LEAST_MATERIALS = 6
 
 @dataclass(frozen=True)
 class RunFound:
-    """One navigation, measured on the small lit sphere of `halfway.library.BasisImages`."""
+    """One navigation, measured on the small lit sphere of `halfway.look.Looks`."""
 
     figure: int
     stops: tuple[str, str]
@@ -107,7 +108,7 @@ class Experiment:
         return {"51": float(coarse.max()), "fine": float(self._steps(run, FINE_TS).max())}
 
     def _steps(self, run: Run, ts: np.ndarray) -> Float64[np.ndarray, " n_steps"]:
-        few = BasisImages(
+        few = Looks(
             self.bench.pacing.names, self.bench.pacing.scene, self.bench.pacing.planes[..., ::16]
         )
         looks = appearance(few.mix(self.route(run).at(ts)))
@@ -126,7 +127,7 @@ def n_components_below(eigenvalues: Float64[np.ndarray, "3 N"], share: float) ->
     return int((shares >= share).sum(axis=1).max())
 
 
-def choose_stops(images: BasisImages) -> dict[int, tuple[str, str]]:
+def choose_stops(images: Looks) -> dict[int, tuple[str, str]]:
     """The paper's stops; where a library lacks one, the two materials that look farthest apart of those not yet taken."""
     known = {run.figure: run.stops for run in RUNS if set(run.stops) <= set(images.names)}
     taken = {name for stops in known.values() for name in stops}
@@ -138,7 +139,7 @@ def choose_stops(images: BasisImages) -> dict[int, tuple[str, str]]:
     return known
 
 
-def _farthest(images: BasisImages, names: Sequence[str]) -> tuple[str, str]:
+def _farthest(images: Looks, names: Sequence[str]) -> tuple[str, str]:
     at = [images.names.index(name) for name in names]
     looks = appearance(images.images[at, ::16])
     apart = np.array([cielab_difference(looks, one) for one in looks])

@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
-from ..export.report import TableRow
+from ..export import TableRow
 from ..files import replacing
 from .reported import (
     N_COMPONENTS,

@@ -16,8 +16,8 @@ import numpy as np
 from ..export import Report, figures
 from ..files import replacing
 from ..library import Library
+from ..recipes import Mixer
 from ..render import BasisPictures, Renderer, pictures
-from ..space import Mixer
 from ..tasks import Track, silent
 from .experiment import SPACES, Experiment, RunFound, largest_share_after, n_components_below
 from .reported import (

@@ -3,9 +3,11 @@
 from . import pictures
 from .basis import BasisPictures
 from .doctor import Finding, doctor
+from .fits import fit_sheet
 from .frames import Frame, write_frames
 from .renderer import QUALITY, Renderer
 from .scenes import SCENES, Scene
+from .studio import studio
 from .variant import register
 
 __all__ = [
@@ -17,7 +19,9 @@ __all__ = [
     "Renderer",
     "Scene",
     "doctor",
+    "fit_sheet",
     "pictures",
     "register",
+    "studio",
     "write_frames",
 ]

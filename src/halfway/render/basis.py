@@ -17,8 +17,8 @@ import numpy as np
 
 from .._types import Weights
 from ..brdf import TabularBrdf
+from ..cache import cached
 from ..errors import RenderError
-from ..library.cache import cached
 from ..tasks import Track, silent
 from .renderer import Renderer
 

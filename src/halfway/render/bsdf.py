@@ -28,11 +28,10 @@ import numpy as np
 
 from ..brdf import TabularBrdf, tabulate
 from ..errors import RenderError
-from ..formats import read_brdf
-from ..formats.spectra import WAVELENGTHS, smooth_primaries
+from ..formats import WAVELENGTHS, read_brdf, smooth_primaries
 from ..halfdiff import MERL, Axis, Grid
 from ..library import open_library
-from ..space import Mixer, Recipe
+from ..recipes import Mixer, Recipe
 from .sampling import HalfVectorSampling, buffer
 
 DEFAULT_LIBRARY = "builtin:merl-abc"

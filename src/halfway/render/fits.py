@@ -11,10 +11,9 @@ import numpy as np
 from jaxtyping import UInt8
 
 from ..brdf import TabularBrdf, tabulate
-from ..brdf.image_metrics import appearance, ciede2000
-from ..brdf.portrait import portrait
-from ..brdf.sphere import PACING_SCENE
+from ..colour import ciede2000
 from ..fit import Fit, Principled
+from ..look import PACING_SCENE, appearance, portrait
 from .denoise import denoiser_available
 from .pictures import sheet
 from .renderer import Renderer

@@ -3,7 +3,7 @@
 A picture is linear RGB radiance, float32, shape (height, width, 3). What a screen shows is its sRGB coding (IEC
 61966-2-1) after an exposure in stops, clipped at white; nothing else is done to the colours:
 
-    v = 2^exposure x,        s = 12.92 v  where v <= .0031308,  else 1.055 v^(1/2.4) - .055
+    s = to_srgb(2^exposure x)                   (`halfway.colour`)
 
 8-bit pictures (uint8, the same shape) are taken as already coded.
 """
@@ -17,6 +17,7 @@ from typing import Any
 import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
+from ..colour import to_srgb
 from ..errors import OutputError
 from ..files import replacing
 
@@ -26,13 +27,11 @@ WRITTEN = (".png", ".jpg", ".jpeg", ".webp", ".exr")
 ANIMATED = (".webp", ".gif", ".mp4")
 
 
-def to_srgb(image: np.ndarray, *, exposure: float = 0.0) -> np.ndarray:
+def to_8_bit(image: np.ndarray, *, exposure: float = 0.0) -> np.ndarray:
     """The 8-bit sRGB coding of a linear picture, ``exposure`` stops brighter."""
     if image.dtype == np.uint8:
         return image
-    v = np.clip(image * np.float32(2.0**exposure), 0, 1)
-    coded = np.where(v <= 0.0031308, 12.92 * v, 1.055 * v ** (1 / 2.4) - 0.055)
-    return np.round(255 * coded).astype(np.uint8)
+    return np.round(255 * to_srgb(image * np.float32(2.0**exposure))).astype(np.uint8)
 
 
 def write(path: Path | str, image: np.ndarray, *, exposure: float = 0.0) -> None:
@@ -49,7 +48,7 @@ def write(path: Path | str, image: np.ndarray, *, exposure: float = 0.0) -> None
         if path.suffix.lower() == ".exr":
             _write_exr(temporary, image)
         else:
-            Image.fromarray(to_srgb(image, exposure=exposure)).save(temporary, quality=92)
+            Image.fromarray(to_8_bit(image, exposure=exposure)).save(temporary, quality=92)
 
 
 def strip(
@@ -71,7 +70,7 @@ def sheet(
         raise OutputError("a contact sheet of no pictures: expected one or more.")
     columns = columns or max(1, round(len(images) ** 0.5))
     tiles = [
-        _labelled(to_srgb(image, exposure=exposure), label if labels else None)
+        _labelled(to_8_bit(image, exposure=exposure), label if labels else None)
         for image, label in zip_longest(images, labels, fillvalue="")
         if isinstance(image, np.ndarray)
     ]
@@ -93,7 +92,7 @@ def animate(
     """
     path = Path(path)
     _require_suffix(path, ANIMATED)
-    coded = (to_srgb(image, exposure=exposure) for image in images)
+    coded = (to_8_bit(image, exposure=exposure) for image in images)
     first = next(coded, None)
     if first is None:
         raise OutputError(f"{path} would be an animation of no pictures: expected one or more.")

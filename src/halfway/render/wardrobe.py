@@ -13,7 +13,7 @@ from typing import Any
 import mitsuba as mi
 
 from ..brdf import TabularBrdf
-from ..formats.rgl_writer import write_rgl
+from ..formats import write_rgl
 from ..halfdiff import Grid
 from .scenes import Material
 

@@ -7,21 +7,42 @@ Everything the page is told is described in `schema`, once: OpenAPI shows it at 
 types of the viewer are made from it.
 """
 
+from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from .page import Page
+from .page import Page, refresh
 from .run import serve
 
 if TYPE_CHECKING:
-    from .app import create_app
+    from .app import app_of, create_app
+    from .explorer import PACES, Explorer
+    from .schema import Place
+    from .static import export, require_own
 
-__all__ = ["Page", "create_app", "serve"]
+__all__ = [
+    "PACES",
+    "Explorer",
+    "Page",
+    "Place",
+    "app_of",
+    "create_app",
+    "export",
+    "refresh",
+    "require_own",
+    "serve",
+]
+
+# The web framework takes half a second to load, in which the browser starts already: see `run`.
+_LATER = {
+    "app": ("app_of", "create_app"),
+    "explorer": ("PACES", "Explorer"),
+    "schema": ("Place",),
+    "static": ("export", "require_own"),
+}
 
 
 def __getattr__(name: str) -> Any:
-    # The web framework takes half a second to load, in which the browser starts already: see `run`.
-    if name == "create_app":
-        from .app import create_app
-
-        return create_app
+    for module, names in _LATER.items():
+        if name in names:
+            return getattr(import_module(f".{module}", __name__), name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -9,7 +9,7 @@ from typing import TypeAlias
 import numpy as np
 from scipy.spatial import ConvexHull, QhullError
 
-from ..library import Pca
+from ..components import Pca
 from ..space import AnchoredSpace, PaperSpace, Space
 from .schema import Channel, Embedding, SpaceView
 

@@ -13,25 +13,25 @@ from threading import Lock
 
 import numpy as np
 
+from ..components import Pca
 from ..errors import OutputError, OutsideHullError, RecipeError, SpaceError
 from ..formats import MerlFile, encode_header, write_brdf
-from ..library import BasisImages, Library, Pca
-from ..render.scenes import SCENES
-from ..render.studio import studio
+from ..library import Library
+from ..look import Looks
+from ..recipes import Mixer, Recipe
+from ..render import SCENES, studio
 from ..space import (
     SPACES,
     AnchoredSpace,
-    Mixer,
+    DelaunayWalk,
     PaperSpace,
-    Recipe,
     Route,
     Space,
+    Triangulation,
     make_space,
+    nearest_in_hull,
     perceptual,
 )
-from ..space.hull import nearest_in_hull
-from ..space.triangulation import Triangulation
-from ..space.walk import DelaunayWalk
 from ..tasks import Track, silent
 from .blocks import Block
 from .embedding import look_at
@@ -73,7 +73,7 @@ class Explorer:
         self.library = library
         self._cache = cache
         self._pca = Pca.fit(library, cache=cache, track=track)
-        self.pictures = BasisImages.fit(library, cache=cache, track=track)
+        self.pictures = Looks.fit(library, cache=cache, track=track)
         # The page opens with the first space; the others are made when they are asked for.
         self._spaces = {SPACES[0]: make_space(SPACES[0], library, cache=cache, track=track)}
         self._making = Lock()
@@ -141,7 +141,7 @@ class Explorer:
                 inside = bool(
                     np.abs((reached - point) / np.ptp(space.points, axis=0)).max() < INSIDE
                 )
-                return to_place(recipe, reached, inside=inside)
+                return to_location(recipe, reached, inside=inside)
             case PaperSpace():
                 n_axes = space.triangulations[0].points.shape[1]
                 if point.size != 3 * n_axes:
@@ -220,14 +220,14 @@ class Explorer:
 def _place_in_each_channel(space: PaperSpace, point: np.ndarray) -> PlaceView:
     """The material at a point (3, k) of the paper's space, or the nearest in the channels that are outside their hull."""
     try:
-        return to_place(space.recipe(point), point.ravel(), inside=True)
+        return to_location(space.recipe(point), point.ravel(), inside=True)
     except OutsideHullError:
         nearest = np.stack(
             [_nearest(t, x) for t, x in zip(space.triangulations, point, strict=True)]
         )
     reached = np.stack([w @ t.points for w, t in zip(nearest, space.triangulations, strict=True)])
     recipe = Recipe.from_dense(space.library, space.names, nearest)
-    return to_place(recipe, reached.ravel(), inside=False)
+    return to_location(recipe, reached.ravel(), inside=False)
 
 
 def _nearest(triangulation: Triangulation | DelaunayWalk, x: np.ndarray) -> np.ndarray:
@@ -239,7 +239,7 @@ def _nearest(triangulation: Triangulation | DelaunayWalk, x: np.ndarray) -> np.n
         return nearest_in_hull(triangulation.points / spread, x / spread)
 
 
-def to_place(recipe: Recipe, point: np.ndarray, *, inside: bool) -> PlaceView:
+def to_location(recipe: Recipe, point: np.ndarray, *, inside: bool) -> PlaceView:
     """A place with its recipe."""
     document = RecipeDocument.model_validate(recipe.to_json())
     return PlaceView(recipe=document, point=point.tolist(), inside=inside)

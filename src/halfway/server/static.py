@@ -27,7 +27,8 @@ import numpy as np
 
 from ..errors import DegenerateSpaceWarning, OutputError
 from ..files import replacing_folder
-from ..library import BasisImages, Library
+from ..library import Library
+from ..look import Looks
 from ..space import SPACES, AnchoredSpace, PaperSpace, Route, Space, Triangulation, lengths
 from ..tasks import Track, run, silent
 from .blocks import Block
@@ -201,12 +202,12 @@ def _triangulation(
     )
 
 
-def _leg(space: Space, pictures: BasisImages, pair: tuple[int, int]) -> LegFile:
+def _leg(space: Space, pictures: Looks, pair: tuple[int, int]) -> LegFile:
     i, j = pair
     return leg(Route.through(space, [space.names[i], space.names[j]]), pictures)
 
 
-def leg(route: Route, pictures: BasisImages) -> LegFile:
+def leg(route: Route, pictures: Looks) -> LegFile:
     """A route of two stops, with how much changes along it."""
     view = to_view(route)
     t, length = lengths(route, pictures)

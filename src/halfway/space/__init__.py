@@ -1,12 +1,9 @@
-"""Spaces, recipes, routes, and the mixing of recipes into tables."""
+"""Spaces where materials are points, and the routes through them."""
 
-from .anchored import AnchoredSpace
-from .evaluation import Bench, Evaluation, evaluate, sample_pairs
-from .leave_one_out import AnchoredPlace, LeaveOneOut, PaperPlace, leave_one_out
+from .anchored import AnchoredSpace, anchored_scale
+from .hull import nearest_in_hull
 from .making import SPACES, anchored_space, make_space
-from .mix import Mixer, mix
 from .pace import lengths, paced, perceptual
-from .recipe import Recipe
 from .route import Route
 from .spaces import LinearSpace, PaperSpace, Space
 from .triangulation import Triangulation
@@ -14,27 +11,18 @@ from .walk import DelaunayWalk
 
 __all__ = [
     "SPACES",
-    "AnchoredPlace",
     "AnchoredSpace",
-    "Bench",
     "DelaunayWalk",
-    "Evaluation",
-    "LeaveOneOut",
     "LinearSpace",
-    "Mixer",
-    "PaperPlace",
     "PaperSpace",
-    "Recipe",
     "Route",
     "Space",
     "Triangulation",
+    "anchored_scale",
     "anchored_space",
-    "evaluate",
-    "leave_one_out",
     "lengths",
     "make_space",
-    "mix",
+    "nearest_in_hull",
     "paced",
     "perceptual",
-    "sample_pairs",
 ]

@@ -29,11 +29,12 @@ import numpy as np
 from jaxtyping import Float64
 
 from .._types import Points
-from ..brdf.image_metrics import appearance, cielab_difference
+from ..components import Pca
 from ..errors import OutsideHullError, SpaceError
-from ..library import BasisImages, Library, Pca
+from ..library import Library
+from ..look import Looks, appearance, cielab_difference
+from ..recipes import Recipe
 from .hull import nearest_in_hull
-from .recipe import Recipe
 from .spaces import Leg, Space, interpolate
 from .triangulation import corners
 from .walk import DelaunayWalk
@@ -64,7 +65,7 @@ class AnchoredSpace(Space):
     scale: Float64[np.ndarray, " d"]
     """What the coordinates are multiplied by where distances count."""
     _walk: DelaunayWalk
-    _images: BasisImages
+    _images: Looks
     name = "anchored"
 
     @classmethod
@@ -72,7 +73,7 @@ class AnchoredSpace(Space):
         cls,
         library: Library,
         pca: Pca,
-        images: BasisImages,
+        images: Looks,
         body: Float64[np.ndarray, "N 3"],
         *,
         n_components: int = 3,

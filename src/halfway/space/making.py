@@ -2,8 +2,10 @@
 
 from pathlib import Path
 
+from ..components import Pca
 from ..errors import SpaceError
-from ..library import BasisImages, Library, Pca, body_colours
+from ..library import Library
+from ..look import Looks, body_colours
 from ..tasks import THREADS, Engine, Track, silent
 from .anchored import DETOUR, AnchoredSpace
 from .spaces import LinearSpace, PaperSpace, Space
@@ -24,7 +26,7 @@ def anchored_space(
     return AnchoredSpace.fit(
         library,
         Pca.fit(library, cache=cache, track=track, engine=engine),
-        BasisImages.fit(library, cache=cache, track=track, engine=engine),
+        Looks.fit(library, cache=cache, track=track, engine=engine),
         body_colours(library, cache=cache, track=track, engine=engine),
         n_components=n_components,
         detour=detour,

@@ -1,7 +1,7 @@
 """Perceptual pace: a route whose materials look equally far apart.
 
 The distance of two materials is the mean CIEDE2000 difference of their pictures on a small lit sphere
-(`halfway.library.BasisImages`), and the length of a stretch of a route the sum over steps too short to matter. With L(t) the
+(`halfway.look.Looks`), and the length of a stretch of a route the sum over steps too short to matter. With L(t) the
 length from the start to t, the paced route is
 
     u = L(t) / L(1)
@@ -17,8 +17,7 @@ from dataclasses import replace
 import numpy as np
 from jaxtyping import Float64
 
-from ..brdf.image_metrics import Lab, appearance, ciede2000_difference
-from ..library import BasisImages
+from ..look import Lab, Looks, appearance, ciede2000_difference
 from .route import Route
 
 FINEST = 1 / 200
@@ -36,12 +35,12 @@ Places = Float64[np.ndarray, "..."]
 """Shares of a way, ascending."""
 
 
-def perceptual(route: Route, images: BasisImages) -> Route:
+def perceptual(route: Route, images: Looks) -> Route:
     """The same way at perceptual pace; a route on which nothing changes keeps its own."""
     return paced(route, *lengths(route, images))
 
 
-def lengths(route: Route, images: BasisImages) -> tuple[Places, Places]:
+def lengths(route: Route, images: Looks) -> tuple[Places, Places]:
     """Some t, the knots among them, and the length of the route from its start to each."""
     images = replace(images, planes=images.planes[..., ::THINNING])
     t = np.union1d(route.knots, np.linspace(0, 1, N_START))
@@ -71,7 +70,7 @@ def paced(route: Route, t: Places, length: Places) -> Route:
     return replace(route, pace="perceptual", knots=u, weights=route.at(t), stop_ts=stop_ts)
 
 
-def _looks(route: Route, images: BasisImages, t: Places) -> Lab:
+def _looks(route: Route, images: Looks, t: Places) -> Lab:
     return appearance(images.mix(route.at(t)))
 
 

@@ -13,7 +13,7 @@ import numpy as np
 from jaxtyping import Float64
 
 from ..errors import SpaceError
-from .recipe import Recipe
+from ..recipes import Recipe
 from .spaces import Space, interpolate
 
 FORMAT = 1
@@ -74,11 +74,6 @@ class Route:
 
     def __repr__(self) -> str:
         return f"Route({' to '.join(self.stops)}, {self.space}, {self.pace} pace, {self.library!r})"
-
-    def _repr_png_(self) -> bytes | None:
-        from .portraits import N_SPHERES, picture_recipes
-
-        return picture_recipes(self.library, self.names, self.at(np.linspace(0, 1, N_SPHERES)))
 
     def steps(self, n: int) -> list[float]:
         """``n`` values of t from 0 to 1: every stop, and each leg evenly, as many steps as its share of t.

@@ -13,9 +13,10 @@ from typing import NamedTuple
 import numpy as np
 from jaxtyping import Float64
 
+from ..components import Pca
 from ..errors import SpaceError
-from ..library import Library, Pca
-from .recipe import Recipe
+from ..library import Library
+from ..recipes import Recipe
 from .triangulation import Path, Triangulation, corners
 from .walk import DelaunayWalk
 

@@ -53,11 +53,6 @@ class Recipe:
     def __repr__(self) -> str:
         return f"Recipe({self.library!r}, {self.to_json()['weights']})"
 
-    def _repr_png_(self) -> bytes | None:
-        from .portraits import picture_recipes
-
-        return picture_recipes(self.library, self.names, self.weights[:, None])
-
     @classmethod
     def of(cls, library: str, weights: Mapping[str, Any]) -> "Recipe":
         """The recipe with these weights: one map for all channels, or one under each of "r", "g", "b".

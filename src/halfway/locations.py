@@ -1,7 +1,7 @@
 """Where files are: a path of this machine, or a URL such as ``s3://bucket/x.brdflib`` of storage that many share.
 
 Local paths are `pathlib.Path`. A `RemotePath` has the same names for the few things that we do with paths, by fsspec,
-so that code over a `Place` says it once. What differs is said here: an object is put whole, cannot be renamed, and is
+so that code over a `Location` says it once. What differs is said here: an object is put whole, cannot be renamed, and is
 read in ranges, many at a time.
 """
 
@@ -138,11 +138,11 @@ class RemotePath:
             ) from error
 
 
-Place = Path | RemotePath
+Location = Path | RemotePath
 """Where a file or a folder is."""
 
 
-def to_place(where: "str | Place") -> Place:
+def to_location(where: "str | Location") -> Location:
     """The place that a person writes: a URL is remote, except ``file://``; anything else is a path."""
     if not isinstance(where, str):
         return where
@@ -151,19 +151,19 @@ def to_place(where: "str | Place") -> Place:
     return RemotePath(where) if SCHEME in where else Path(where)
 
 
-def absolute(place: Place) -> Place:
+def absolute(place: Location) -> Location:
     """The place by a name that means the same in every folder."""
     return place.absolute() if isinstance(place, Path) else place
 
 
-def name_in(folder: Place, place: Place) -> str:
+def name_in(folder: Location, place: Location) -> str:
     """What a file is called in a folder that holds it, with ``/`` between."""
     if isinstance(folder, Path) and isinstance(place, Path):
         return place.relative_to(folder).as_posix()
     return str(place).removeprefix(f"{folder}/")
 
 
-def read_into(place: Place, starts: Sequence[int], buffers: Sequence[memoryview]) -> None:
+def read_into(place: Location, starts: Sequence[int], buffers: Sequence[memoryview]) -> None:
     """Fill each buffer with the bytes of a file from its start on.
 
     Raises
@@ -182,7 +182,7 @@ def read_into(place: Place, starts: Sequence[int], buffers: Sequence[memoryview]
             _require_full(place, _read_at(file, start, buffer), len(buffer))
 
 
-def append_text(place: Place, text: str) -> None:
+def append_text(place: Location, text: str) -> None:
     """Add to the end of a file; a remote one, which should be small, is put again as a whole."""
     if isinstance(place, RemotePath):
         place.put_text(place.read_text() + text)
@@ -203,7 +203,7 @@ else:
         return file.readinto(buffer)
 
 
-def _require_full(place: Place, n_bytes: int, expected: int) -> None:
+def _require_full(place: Location, n_bytes: int, expected: int) -> None:
     if n_bytes < expected:
         raise OSError(f"{place} ended {expected - n_bytes:,} bytes early")
 

@@ -25,8 +25,8 @@ import numpy as np
 from jaxtyping import Float64, Int
 from threadpoolctl import threadpool_limits
 
+from ..library import Streamed
 from ..tasks import THREADS, Engine, Track, silent
-from .library import Streamed
 from .sums import join_channels, measured_pieces, sum_blocks
 
 N_PASSES = 2

@@ -15,14 +15,23 @@ from typing import NamedTuple
 import numpy as np
 from jaxtyping import Float32, Float64
 
-from ..brdf.metrics import comparison_cells, log_relative
+from ..brdf import MAPPINGS, comparison_cells
 from ..errors import LibraryError
-from ..places import Place, absolute
+from ..library import (
+    SUFFIX,
+    Arrays,
+    Coding,
+    CompactLibrary,
+    Header,
+    Library,
+    Precision,
+    Streamed,
+    arrays_checksum,
+    ranges,
+    write_compact,
+)
+from ..locations import Location, absolute
 from ..tasks import THREADS, Engine, Track, run, silent
-from .blocks import ranges
-from .coding import Coding, Precision
-from .compact import SUFFIX, Arrays, CompactLibrary, Header, arrays_checksum, write_compact
-from .library import Library, Streamed
 from .pca import Pca
 
 RUN = 1024
@@ -32,7 +41,7 @@ N_COMPONENTS = 36
 
 def compact_library(
     library: Library,
-    path: Place,
+    path: Location,
     *,
     n_components: int = N_COMPONENTS,
     coding: Coding = Coding(),  # noqa: B008 (frozen)
@@ -203,7 +212,8 @@ def _compared(library: Library, compact: Library, block: slice) -> _Compared:
         part.ravel()[block][kept] for part in comparison_cells(library.grid)
     )
     weights = np.where(grazing, 0.0, solid_angle)
-    apart = log_relative(p, cos_i, cos_o) - log_relative(q, cos_i, cos_o)
+    relative = MAPPINGS["log-relative"]
+    apart = relative(p, cos_i, cos_o) - relative(q, cos_i, cos_o)
     log = np.array([(apart**2 @ weights).sum(), 3 * p.shape[1] * weights.sum()])
     return _Compared(((p - q) ** 2).sum(axis=-1), (centred**2).sum(axis=-1), log)
 

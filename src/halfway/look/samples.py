@@ -19,12 +19,12 @@ import numpy as np
 from jaxtyping import Float, Float32, Float64, Int
 
 from .._types import Mask
-from ..brdf.metrics import MAPPINGS, Metric, comparison_cells
+from ..brdf import MAPPINGS, Metric, comparison_cells
+from ..cache import cached
 from ..errors import LibraryError
 from ..halfdiff import Grid
+from ..library import Library
 from ..tasks import THREADS, Engine, Track, run, silent
-from .cache import cached
-from .library import Library
 
 BODY_THETA_H_DEGREES = 25.0
 BODY_THETA_D_DEGREES = 50.0
@@ -34,7 +34,7 @@ Measure = Literal["solid angle", "cell"]
 
 
 @dataclass(frozen=True, eq=False)
-class BasisSamples:
+class CellSamples:
     """The values of all materials of a library on a sample of its cells."""
 
     names: tuple[str, ...]
@@ -60,7 +60,7 @@ class BasisSamples:
         cache: Path | None = None,
         track: Track = silent,
         engine: Engine = THREADS,
-    ) -> "BasisSamples":
+    ) -> "CellSamples":
         """Samples of ``library`` on about ``n_cells`` cells; kept in a ``cache`` folder under its checksum.
 
         Raises

@@ -9,10 +9,10 @@ from pathlib import Path
 
 import numpy as np
 
+from ..cache import cached
+from ..library import Streamed
 from ..tasks import THREADS, Engine, Track, silent
-from .cache import cached
 from .gram import Gram
-from .library import Streamed
 
 _KEY = "gram-2-"
 

@@ -13,9 +13,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from .blocks import columns_per_piece
+from ..library import Library, columns_per_piece
 from .gram import Part, gram_block
-from .library import Library
 from .pca import MOST_EXACT, N_KEPT
 from .sketch import N_PASSES, OVERSAMPLING, sketch_block
 

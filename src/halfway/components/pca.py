@@ -30,12 +30,12 @@ from threadpoolctl import threadpool_limits
 
 from .._types import Table
 from ..brdf import TabularBrdf
+from ..cache import cached
 from ..errors import LibraryError
+from ..library import Library, Streamed
 from ..tasks import THREADS, Engine, Track, run, silent
-from .cache import cached
 from .gram import Gram
 from .gram_cache import kept_gram
-from .library import Library, Streamed
 from .sketch import N_PASSES, sketch
 
 N_KEPT = 256
@@ -73,7 +73,7 @@ class Pca:
     ) -> "Pca":
         """The components of ``library``: all, or the leading ``n_components`` (`N_KEPT` of a library of more materials).
 
-        Exact up to `MOST_EXACT` materials, and by `halfway.library.sketch` beyond. With a ``cache`` folder, what was read of
+        Exact up to `MOST_EXACT` materials, and by `halfway.components.sketch` beyond. With a ``cache`` folder, what was read of
         the samples is kept there; a library that grew is then only completed by its new materials.
 
         Raises

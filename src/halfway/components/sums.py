@@ -7,9 +7,8 @@ import numpy as np
 from jaxtyping import Float64
 
 from ..errors import LibraryError
+from ..library import Streamed, columns_per_piece, ranges
 from ..tasks import Engine, Track, run
-from .blocks import columns_per_piece, ranges
-from .library import Streamed
 
 S = TypeVar("S", bound=tuple[np.ndarray, ...])
 """Arrays that add up; the last counts the cells of each channel."""

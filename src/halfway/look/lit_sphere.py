@@ -23,8 +23,8 @@ import numpy as np
 from jaxtyping import Float, Float32, Float64, Int
 
 from .._types import Directions, Mask
+from ..brdf import hemisphere
 from ..halfdiff import Grid
-from .albedo import hemisphere
 
 Angles = Float64[np.ndarray, "..."]
 Indices = Int[np.ndarray, "..."]
@@ -58,7 +58,7 @@ class Sky:
 
 
 @dataclass(frozen=True)
-class BasisScene:
+class SphereScene:
     """Lights and a sky around a unit sphere, and the raster that pictures it."""
 
     name: str
@@ -82,7 +82,7 @@ class BasisScene:
         return hashlib.sha256(repr(parts).encode()).hexdigest()[:16]
 
 
-PACING_SCENE = BasisScene(
+PACING_SCENE = SphereScene(
     "pacing",
     lights=(
         Light((-0.45, 0.55, 0.70), 1.85),  # key, from the upper left
@@ -93,7 +93,7 @@ PACING_SCENE = BasisScene(
 )
 """Where routes are paced: three lights and a soft sky; a white matte sphere reaches 1.0 at its brightest."""
 
-JUDGING_SCENE = BasisScene(
+JUDGING_SCENE = SphereScene(
     "judging",
     lights=(
         Light((0.30, 0.25, 0.92), 1.6),  # beside the viewer: highlights near the middle
@@ -124,7 +124,7 @@ class SphereOperator(NamedTuple):
     """(n_pixels, n_nodes x 4), the sky at each pixel in terms of the moments."""
 
     @classmethod
-    def of(cls, scene: BasisScene, grid: Grid) -> "SphereOperator":
+    def of(cls, scene: SphereScene, grid: Grid) -> "SphereOperator":
         """The operator of ``scene`` for isotropic tables on ``grid``."""
         frame, pixel = _points(scene)
         light = _light_queries(scene.lights, frame)
@@ -141,7 +141,7 @@ class SphereOperator(NamedTuple):
         )
 
     def picture(self, row: Float32[np.ndarray, "3 p"]) -> Float32[np.ndarray, "n_pixels 3"]:
-        """Linear RGB of the sphere's pixels, in the order of `BasisScene.mask`."""
+        """Linear RGB of the sphere's pixels, in the order of `SphereScene.mask`."""
         samples = row[:, self.cells].T
         measured = ~np.isnan(samples)
         total = self.lookup @ np.where(measured, samples, np.float32(0))
@@ -174,7 +174,7 @@ class _Queries(NamedTuple):
     """Irradiance x cosine, or solid angle x cosine."""
 
 
-def _points(scene: BasisScene) -> tuple[_Frame, Indices]:
+def _points(scene: SphereScene) -> tuple[_Frame, Indices]:
     """The points of the raster that are on the sphere, and the pixel that each belongs to."""
     n = scene.size * scene.n_points
     x, y = np.meshgrid((np.arange(n) + 0.5) * 2 / n - 1, 1 - (np.arange(n) + 0.5) * 2 / n)

@@ -13,7 +13,8 @@ from functools import cache
 import numpy as np
 
 from .._types import Values
-from ..brdf import Brdf
+from ..colour import to_srgb
+from .brdf import Brdf
 
 _SIDE = 96
 # x to the right, y up, z to the viewer; and the weight.
@@ -49,7 +50,7 @@ def lit_sphere(brdf: Brdf) -> Values:
 
 def quality(picture: Values, expected: Values) -> Quality:
     """How close one `lit_sphere` is to another."""
-    error = np.mean((_encoded(picture) - _encoded(expected)) ** 2)
+    error = np.mean((to_srgb(picture) - to_srgb(expected)) ** 2)
     scale = np.abs(expected).sum()
     return Quality(
         psnr=float(-10 * np.log10(max(error, 1e-12))),
@@ -68,9 +69,3 @@ def _frames() -> np.ndarray:
     tangent = np.cross([0.0, 1.0, 0.0], normal)
     tangent /= np.linalg.norm(tangent, axis=-1, keepdims=True)
     return np.stack([tangent, np.cross(normal, tangent), normal], axis=1)
-
-
-def _encoded(linear: Values) -> np.ndarray:
-    """The sRGB transfer function, IEC 61966-2-1."""
-    clipped = np.clip(linear, 0, 1)
-    return np.where(clipped <= 0.0031308, 12.92 * clipped, 1.055 * clipped ** (1 / 2.4) - 0.055)

@@ -14,15 +14,13 @@ import numpy as np
 from jaxtyping import Float64
 
 from .._types import Points
-from ..brdf.image_metrics import appearance, cielab_difference
-from ..brdf.metrics import MAPPINGS
+from ..brdf import MAPPINGS
+from ..components import Pca
 from ..errors import OutsideHullError
-from ..library import Pca
+from ..look import appearance, cielab_difference
+from ..space import DelaunayWalk, anchored_scale, nearest_in_hull
 from ..tasks import THREADS, Engine, Track, run, silent
-from .anchored import anchored_scale
 from .evaluation import Bench
-from .hull import nearest_in_hull
-from .walk import DelaunayWalk
 
 Place = Callable[[int], Float64[np.ndarray, "3 N"]]
 """The weights over all materials where material i stands in the space of the others; its own weight is 0."""

@@ -14,19 +14,24 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Float, Float32
 
-from ..brdf.sphere import PACING_SCENE, BasisScene, SphereOperator
+from ..cache import cached
+from ..errors import LibraryError
+from ..library import Library
 from ..tasks import THREADS, Engine, Track, run, silent
-from .cache import cached
-from .library import Library
+from .appearance import appearance, cielab_difference
+from .lit_sphere import PACING_SCENE, SphereOperator, SphereScene
+
+THINNING = 4
+"""Every so many pixels are enough to choose materials by."""
 
 
 @dataclass(frozen=True, eq=False)
-class BasisImages:
+class Looks:
     """The pictures of all materials of a library in one scene."""
 
     names: tuple[str, ...]
     """The materials, in the library's order."""
-    scene: BasisScene
+    scene: SphereScene
     planes: Float32[np.ndarray, "3 N n_pixels"]
     """Linear RGB, 1 is the white of the display; only the pixels of the sphere, in the order of ``scene.mask()``."""
 
@@ -34,12 +39,12 @@ class BasisImages:
     def fit(
         cls,
         library: Library,
-        scene: BasisScene = PACING_SCENE,
+        scene: SphereScene = PACING_SCENE,
         *,
         cache: Path | None = None,
         track: Track = silent,
         engine: Engine = THREADS,
-    ) -> "BasisImages":
+    ) -> "Looks":
         """The pictures of ``library``; with a ``cache`` folder, kept there under the library's checksum."""
         key = f"basis-1-{scene.fingerprint()}-{library.checksum}"
         planes = cached(cache, key, lambda: {"planes": _planes(library, scene, track, engine)})[
@@ -70,8 +75,36 @@ class BasisImages:
         return picture
 
 
+def most_different(images: Looks, n: int) -> list[str]:
+    """The names of ``n`` materials that look as different as can be, in the library's order.
+
+    First the one that looks least like the mean of all, then each time the one that is farthest from those chosen: mean
+    CIELAB difference on the lit sphere of ``images``.
+
+    Reference: T. F. Gonzalez, "Clustering to Minimize the Maximum Intercluster Distance", Theoretical Computer Science 38,
+    1985.
+
+    Raises
+    ------
+    LibraryError
+        When the library has fewer than ``n``, or ``n`` is less than 2.
+    """
+    if not 2 <= n <= len(images.names):
+        raise LibraryError(
+            f"{n} materials cannot be chosen: expected 2 to {len(images.names)}, which is all there are."
+        )
+    looks = appearance(images.images[:, ::THINNING])
+    distance = cielab_difference(looks, looks.mean(axis=0))
+    chosen: list[int] = []
+    for _ in range(n):
+        chosen.append(int(np.argmax(distance)))
+        to_chosen = cielab_difference(looks, looks[chosen[-1]])
+        distance = to_chosen if len(chosen) == 1 else np.minimum(distance, to_chosen)
+    return [images.names[i] for i in sorted(chosen)]
+
+
 def _planes(
-    library: Library, scene: BasisScene, track: Track, engine: Engine
+    library: Library, scene: SphereScene, track: Track, engine: Engine
 ) -> Float32[np.ndarray, "3 N n_pixels"]:
     draw = partial(_draw, library, SphereOperator.of(scene, library.grid))
     pictures = list(

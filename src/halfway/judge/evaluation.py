@@ -15,7 +15,7 @@ For each of a set of pairs of materials, on the way from one to the other in `N_
 Coherence alone is no achievement: plain linear interpolation has detour 1 and passes through few real materials. Look
 at detour and realism together.
 
-Pictures are those of `halfway.library.BasisImages`, table metrics those of `halfway.library.BasisSamples`.
+Pictures are those of `halfway.look.Looks`, table metrics those of `halfway.look.CellSamples`.
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -27,19 +27,21 @@ from typing import Any, NamedTuple
 import numpy as np
 from jaxtyping import Float32, Float64, Int
 
-from ..brdf.image_metrics import (
+from ..colour import to_lab
+from ..library import Library
+from ..look import (
+    JUDGING_SCENE,
+    PACING_SCENE,
+    CellSamples,
+    Looks,
     Means,
     appearance,
     ciede2000_difference,
     cielab_difference,
     shown,
-    to_lab,
 )
-from ..library import JUDGING_SCENE, PACING_SCENE, BasisImages, BasisSamples, Library
+from ..space import Route, Space, perceptual
 from ..tasks import THREADS, Engine, Track, run, silent
-from .pace import perceptual
-from .route import Route
-from .spaces import Space
 
 N_STEPS = 41
 """Materials on the way of each pair, both ends included."""
@@ -71,10 +73,10 @@ def sample_pairs(n_materials: int, n_pairs: int | None = None, *, seed: int = 0)
 class Bench:
     """What spaces of one library are measured with."""
 
-    pacing: BasisImages
-    judging: BasisImages
+    pacing: Looks
+    judging: Looks
     """Of another scene; used for nothing but judging."""
-    samples: BasisSamples
+    samples: CellSamples
 
     @classmethod
     def fit(
@@ -87,9 +89,9 @@ class Bench:
     ) -> "Bench":
         """The bench of ``library``; a ``cache`` folder keeps it for the next time."""
         return cls(
-            BasisImages.fit(library, PACING_SCENE, cache=cache, track=track, engine=engine),
-            BasisImages.fit(library, JUDGING_SCENE, cache=cache, track=track, engine=engine),
-            BasisSamples.fit(library, cache=cache, track=track, engine=engine),
+            Looks.fit(library, PACING_SCENE, cache=cache, track=track, engine=engine),
+            Looks.fit(library, JUDGING_SCENE, cache=cache, track=track, engine=engine),
+            CellSamples.fit(library, cache=cache, track=track, engine=engine),
         )
 
 

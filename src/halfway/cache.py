@@ -10,8 +10,8 @@ from pathlib import Path
 
 import numpy as np
 
-from ..errors import OutputError
-from ..files import replacing
+from .errors import OutputError
+from .files import replacing
 
 MOST_BYTES = 2e9
 """What the folder holds at most, beside the newest result."""

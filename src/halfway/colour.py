@@ -1,0 +1,47 @@
+"""Colour, once: the display's transfer function, luminance, CIELAB and CIEDE2000, all of linear sRGB values (D65).
+
+References: IEC 61966-2-1 (sRGB); CIE 15 (CIELAB); G. Sharma, W. Wu, E. N. Dalal, "The CIEDE2000 Color-Difference Formula:
+Implementation Notes, Supplementary Test Data, and Mathematical Observations", Color Research and Application 30(1), 2005.
+"""
+
+import numpy as np
+from jaxtyping import Float
+
+Rgb = Float[np.ndarray, "... 3"]
+"""Linear sRGB; 1 is the display's white."""
+Lab = Float[np.ndarray, "... 3"]
+"""L* in [0, 100], a*, b*."""
+
+_TO_XYZ = np.array([[0.4124, 0.3576, 0.1805], [0.2126, 0.7152, 0.0722], [0.0193, 0.1192, 0.9505]])
+LUMINANCE = _TO_XYZ[1]
+"""What R, G and B add to the luminance Y."""
+# White is the display's own, so that equal R, G, B have a* = b* = 0.
+_TO_RELATIVE_XYZ = _TO_XYZ / _TO_XYZ.sum(axis=1, keepdims=True)
+_F_TO_LAB = np.array([[0.0, 500.0, 0.0], [116.0, -500.0, 200.0], [0.0, 0.0, -200.0]])
+
+
+def to_srgb(linear: Float[np.ndarray, "..."]) -> Float[np.ndarray, "..."]:
+    """The display's code values, in [0, 1], of linear values clipped to [0, 1]: the sRGB transfer function."""
+    v = np.clip(linear, 0, 1)
+    return np.where(v <= 0.0031308, 12.92 * v, 1.055 * v ** (1 / 2.4) - 0.055)
+
+
+def to_lab(rgb: Rgb) -> Lab:
+    """CIELAB of linear sRGB values in [0, 1], in their dtype: (0, 0, 0) is black, (100, 0, 0) the display's white."""
+    ratio = rgb @ _TO_RELATIVE_XYZ.T.astype(rgb.dtype)
+    delta = 6 / 29
+    f = np.where(ratio > delta**3, np.cbrt(ratio), ratio / (3 * delta**2) + 4 / 29)
+    lab = f.astype(rgb.dtype) @ _F_TO_LAB.astype(rgb.dtype)
+    lab[..., 0] -= 16
+    return lab
+
+
+def ciede2000(a: Lab, b: Lab) -> Float[np.ndarray, "..."]:
+    """Delta E_00 of pairs of colours, with kL = kC = kH = 1."""
+    from ._ciede2000 import differences  # numba takes a second to load
+
+    a, b = np.broadcast_arrays(a, b)
+    out = np.empty(a.shape[:-1])
+    first, second = (np.ascontiguousarray(x).reshape(-1, 3) for x in (a, b))
+    differences(first, second, out.reshape(-1))
+    return out

@@ -1,0 +1,7 @@
+"""Principal components of a library, all that makes them, and compact libraries made of them."""
+
+from .compacting import compact_library
+from .pca import Pca
+from .plan import PcaPlan
+
+__all__ = ["Pca", "PcaPlan", "compact_library"]

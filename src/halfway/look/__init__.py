@@ -1,0 +1,30 @@
+"""Looks: pictures and samples of a library's materials, made of their tables alone, and how different they look."""
+
+from .appearance import Lab, Means, appearance, ciede2000_difference, cielab_difference, flip, shown
+from .images import Looks, most_different
+from .lit_sphere import JUDGING_SCENE, PACING_SCENE, SphereOperator, SphereScene
+from .portraits import N_SPHERES, portrait, recipes_png, table_png, to_png
+from .samples import CellSamples, body_colours
+
+__all__ = [
+    "JUDGING_SCENE",
+    "N_SPHERES",
+    "PACING_SCENE",
+    "CellSamples",
+    "Lab",
+    "Looks",
+    "Means",
+    "SphereOperator",
+    "SphereScene",
+    "appearance",
+    "body_colours",
+    "ciede2000_difference",
+    "cielab_difference",
+    "flip",
+    "most_different",
+    "portrait",
+    "recipes_png",
+    "shown",
+    "table_png",
+    "to_png",
+]
