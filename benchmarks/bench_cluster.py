@@ -11,7 +11,7 @@ from halfway.judge import Bench, evaluate, sample_pairs
 from halfway.library import ProceduralLibrary
 from halfway.models import builtin
 from halfway.space import LinearSpace
-from halfway.tasks import THREADS, Engine, run
+from halfway.tasks import Engine, Threads, Work
 
 N_TASKS = 500
 
@@ -34,9 +34,9 @@ def nothing(_: int) -> None:
 
 def bench_tasks_on_a_cluster(figures, cluster: Cluster):
     def tasks(engine: Engine) -> None:
-        list(run(nothing, range(N_TASKS), engine=engine))
+        list(Work(engine=engine).run(nothing, range(N_TASKS)))
 
-    seconds = race(lambda: tasks(cluster), lambda: tasks(THREADS), rounds=3)
+    seconds = race(lambda: tasks(cluster), lambda: tasks(Threads()), rounds=3)
     figures.note(
         f"{N_TASKS} empty tasks on 2 Dask workers",
         "ours / threads",
@@ -46,7 +46,7 @@ def bench_tasks_on_a_cluster(figures, cluster: Cluster):
 
 
 def bench_components_on_a_cluster(figures, cluster: Cluster, library):
-    fits = (lambda: Pca.fit(library, engine=cluster), lambda: Pca.fit(library))
+    fits = (lambda: Pca.fit(library, work=Work(engine=cluster)), lambda: Pca.fit(library))
     seconds = race(*fits, rounds=3)
     figures.note(
         "components of 100 materials on 2 Dask workers",
@@ -62,9 +62,12 @@ def bench_pairs_on_a_cluster(figures, cluster: Cluster):
     library = ProceduralLibrary("small", builtin("merl-abc").models, grid=grid)
     bench, space = Bench.fit(library), LinearSpace(library.name, library.names)
     pairs = sample_pairs(len(library), 40)
-    engines = (cluster, THREADS)
+    engines = (cluster, Threads())
     seconds = race(
-        *(lambda engine=engine: evaluate(space, bench, pairs, engine=engine) for engine in engines),
+        *(
+            lambda engine=engine: evaluate(space, bench, pairs, work=Work(engine=engine))
+            for engine in engines
+        ),
         rounds=2,
     )
     figures.note(

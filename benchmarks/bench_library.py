@@ -19,7 +19,7 @@ from sklearn.decomposition import PCA
 from halfway import Grid, Pca, build_library
 from halfway.library import ProceduralLibrary
 from halfway.library.blocks import columns_per_piece
-from halfway.tasks import run
+from halfway.tasks import HERE
 
 FIT = """
 import json, sys, time
@@ -56,13 +56,13 @@ def bench_components(figures, library, channel):
     figures.note(what, "scikit-learn randomized / ours", theirs / ours, goal=">= 10", note=note)
 
     def stream():
-        for _ in run(library.columns, library.blocks()):
+        for _ in HERE.run(library.columns, library.blocks()):
             pass
 
     def products():
         piece = np.ones((len(library), columns_per_piece(len(library))))
         n_pieces = 3 * library.grid.size // piece.shape[1]
-        for _ in run(lambda _: piece @ piece.T, range(n_pieces)):
+        for _ in HERE.run(lambda _: piece @ piece.T, range(n_pieces)):
             pass
 
     seconds = race(lambda: Pca.fit(library), stream, products, rounds=5)
@@ -150,7 +150,7 @@ def bench_tasks(figures):
         with ThreadPoolExecutor(2) as pool:
             list(pool.map(abs, range(n)))
 
-    seconds = race(lambda: list(run(abs, range(n))), plain, rounds=5)
+    seconds = race(lambda: list(HERE.run(abs, range(n))), plain, rounds=5)
     each = 1e6 * float(np.median(seconds[:, 0])) / n
     figures.note(
         "20,000 empty tasks on threads",

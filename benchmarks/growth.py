@@ -23,6 +23,7 @@ from halfway.components.gram_cache import kept_gram
 from halfway.components.sketch import sketch
 from halfway.models import synthetic
 from halfway.space import DelaunayWalk, PaperSpace, Route
+from halfway.tasks import Work
 def peak():
     lines = Path("/proc/self/status").read_text().splitlines()
     return int(next(line for line in lines if line.startswith("VmHWM")).split()[1]) / 1024
@@ -39,9 +40,9 @@ if what == "sketch":
     sketch(library, 64)
 if what == "eigen":
     with tempfile.TemporaryDirectory() as cache:
-        kept_gram(library, Path(cache))
+        kept_gram(library, work=Work(cache=Path(cache)))
         cpu, start = time.process_time(), time.perf_counter()
-        Pca.fit(library, cache=Path(cache))
+        Pca.fit(library, work=Work(cache=Path(cache)))
 if what in ("route 3", "route 6"):
     k = int(what[-1])
     pca = Pca.fit(library, n_components=16)

@@ -15,6 +15,7 @@ from halfway.export.figures import STYLE
 from halfway.library import Coding, CompactLibrary, Library
 from halfway.look import Looks
 from halfway.look.appearance import appearance, ciede2000_difference, flip, shown
+from halfway.tasks import Work
 
 CURVES = {
     "log, shared, int8": (Coding("log", True, "int8"), (5, 15, 36, 72, 108)),
@@ -41,7 +42,7 @@ def main(where: str) -> None:
                     Path(folder) / "a.brdfc",
                     n_components=k,
                     coding=coding,
-                    cache=Path(folder),
+                    work=Work(cache=Path(folder)),
                 )
                 seen = pictures_apart(images, made)
                 error = made.header.error

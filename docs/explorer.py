@@ -26,6 +26,7 @@ from halfway.render import SCENES, Renderer, pictures
 from halfway.server import Page as Files
 from halfway.server import create_app
 from halfway.server.run import listen
+from halfway.tasks import Work
 
 IMAGES = Path(__file__).parent / "images"
 FLAGS = ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
@@ -67,7 +68,7 @@ def main() -> None:
 def served(library: Library) -> Generator[str]:
     """The address of an explorer of ``library``, on this machine."""
     with listen(0) as listener:
-        app = create_app(library, page=Files.load(), cache=cache_folder())
+        app = create_app(library, page=Files.load(), work=Work(cache=cache_folder()))
         server = uvicorn.Server(uvicorn.Config(app, log_level="error"))
         thread = threading.Thread(target=server.run, args=([listener],), daemon=True)
         thread.start()

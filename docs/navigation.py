@@ -14,6 +14,7 @@ from halfway.export.figures import STYLE
 from halfway.judge import Bench, evaluate, sample_pairs
 from halfway.judge.evaluation import uniform
 from halfway.space import LinearSpace, PaperSpace, anchored_space
+from halfway.tasks import Work
 
 DETOURS = (1.0, 1.02, 1.05, 1.1, 1.2, 1.5, np.inf)
 COMPONENTS = (1, 2, 4, 6, 8)
@@ -26,13 +27,16 @@ def main(where: str) -> None:
     """Measure every option on the same pairs; print the table and write the figure."""
     library = open_library(where)
     cache = cache_folder()
-    bench = Bench.fit(library, cache=cache)
-    spaces = {f"anchored, {d:g}": anchored_space(library, detour=d, cache=cache) for d in DETOURS}
+    bench = Bench.fit(library, work=Work(cache=cache))
+    spaces = {
+        f"anchored, {d:g}": anchored_space(library, detour=d, work=Work(cache=cache))
+        for d in DETOURS
+    }
     for k in COMPONENTS:
-        made = anchored_space(library, n_components=k, detour=np.inf, cache=cache)
+        made = anchored_space(library, n_components=k, detour=np.inf, work=Work(cache=cache))
         spaces[f"{k} scores and body colour, inf"] = made
     spaces["linear"] = LinearSpace(library.name, library.names)
-    spaces["paper"] = PaperSpace.fit(library, Pca.fit(library, cache=cache))
+    spaces["paper"] = PaperSpace.fit(library, Pca.fit(library, work=Work(cache=cache)))
     rows: dict[str, tuple[float, float]] = {}
     print(
         "| space | detour, median | 90th percentile | max | realism, by cell | by solid angle | seen | others |"

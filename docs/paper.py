@@ -7,6 +7,7 @@ from pathlib import Path
 from halfway import open_library
 from halfway.cli.console import cache_folder, track
 from halfway.paper import reproduce
+from halfway.tasks import Work
 
 DOCS = Path(__file__).parent
 PICTURES = DOCS / "images" / "paper"
@@ -15,7 +16,12 @@ WIDTH = 240
 
 def main(where: str) -> None:
     """Run everything into ``docs/images/paper``; the page itself stands with the others, as ``docs/paper.md``."""
-    reproduce(PICTURES, open_library(where), size=WIDTH, cache=cache_folder(), track=track)
+    reproduce(
+        PICTURES,
+        open_library(where),
+        size=WIDTH,
+        work=Work(cache=cache_folder(), track=track),
+    )
     text = (PICTURES / "page.md").read_text()
     (DOCS / "paper.md").write_text(re.sub(r"\]\((\S+\.webp)\)", r"](images/paper/\1)", text))
     numbers = PICTURES / "paper.json"

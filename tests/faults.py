@@ -24,7 +24,7 @@ import pytest
 from halfway.cluster import Cluster
 from halfway.errors import ClusterError, LibraryError
 from halfway.library import StoredLibrary, build_library, verify_library
-from halfway.tasks import run
+from halfway.tasks import Work
 
 TESTS = Path(__file__).parent
 BUILD_FOR_EVER = """
@@ -88,7 +88,7 @@ def kill_scheduler() -> str:
     try:
         _wait_for(port)
         with Cluster.at(address) as cluster:
-            results = run(time.sleep, [0.05] * 100, engine=cluster)
+            results = Work(engine=cluster).run(time.sleep, [0.05] * 100)
             next(results)
             processes[0].kill()
             list(results)

@@ -15,6 +15,7 @@ from halfway.library import ProceduralLibrary
 from halfway.look import JUDGING_SCENE, PACING_SCENE, Looks, SphereOperator, SphereScene
 from halfway.look.lit_sphere import N_SKY_NODES, Light, Sky
 from halfway.models import AbcModel
+from halfway.tasks import Work
 
 GRID = Grid.merl(20, 12, 24)
 NO_SKY = Sky((0.0, 1.0, 0.0), 0.0, 0.0)
@@ -169,10 +170,10 @@ def test_a_picture_is_square_and_black_beside_the_sphere(images: Looks):
 
 
 def test_a_cache_gives_the_same_pictures_and_knows_the_scene(library: ProceduralLibrary, tmp_path):
-    first = Looks.fit(library, SMALL, cache=tmp_path)
-    again = Looks.fit(library, SMALL, cache=tmp_path)
+    first = Looks.fit(library, SMALL, work=Work(cache=tmp_path))
+    again = Looks.fit(library, SMALL, work=Work(cache=tmp_path))
     assert len(list(tmp_path.iterdir())) == 1
     assert (first.planes == again.planes).all()
     brighter = dataclasses.replace(SMALL, lights=(Light((1.0, 2.0, 2.0), 6.0), *SMALL.lights[1:]))
-    other = Looks.fit(library, brighter, cache=tmp_path)
+    other = Looks.fit(library, brighter, work=Work(cache=tmp_path))
     assert other.planes.sum() > first.planes.sum()

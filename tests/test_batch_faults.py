@@ -18,6 +18,7 @@ from halfway.batch import verify
 from halfway.errors import OutputError
 from halfway.export import write_route
 from halfway.formats import write_merl
+from halfway.tasks import Work
 
 GRID = Grid.merl(24, 20, 40)
 N_KILLS = 10
@@ -184,7 +185,7 @@ def test_a_disk_that_fills_keeps_what_is_finished_and_goes_on_with_room(
 
     ts = route.steps(12)
     with pytest.raises(OutputError, match=r"cannot be written: the disk is full\. Free some space"):
-        write_route(out, route, ts, library, format="merl", track=track)
+        write_route(out, route, ts, library, format="merl", work=Work(track=track))
     assert not list(out.glob(".*"))
     assert (out / "000.binary").read_bytes() == reference["000.binary"]
     thief.unlink()

@@ -44,8 +44,6 @@ def run(capsys, monkeypatch, tmp_path):
     """Run a command in an empty folder; gives (exit code, stdout, stderr)."""
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(console, "cache_folder", lambda: tmp_path / "cache")
-    for module in ("route", "report", "mix", "space", "render"):
-        monkeypatch.setattr(f"halfway.cli.{module}.cache_folder", lambda: tmp_path / "cache")
 
     def run(*words):
         monkeypatch.setattr(sys, "argv", ["halfway", *words])

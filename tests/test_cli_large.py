@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from halfway.cli import arguments
+from halfway.cli import arguments, console
 from halfway.cli import main as halfway
 from halfway.errors import HalfwayError
 from halfway.formats import write_merl
@@ -22,8 +22,7 @@ from halfway.library.compact import write_compact
 def run(capsys, monkeypatch, tmp_path):
     """Run a command in an empty folder; gives (exit code, stdout, stderr)."""
     monkeypatch.chdir(tmp_path)
-    for module in ("route", "report", "compact"):
-        monkeypatch.setattr(f"halfway.cli.{module}.cache_folder", lambda: tmp_path / "cache")
+    monkeypatch.setattr(console, "cache_folder", lambda: tmp_path / "cache")
 
     def run(*words):
         monkeypatch.setattr(sys, "argv", ["halfway", *words])

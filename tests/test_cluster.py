@@ -24,7 +24,7 @@ from halfway.library import StoredLibrary, verify_library
 from halfway.look import CellSamples, Looks
 from halfway.recipes import Mixer
 from halfway.space import LinearSpace
-from halfway.tasks import THREADS, Threads, run
+from halfway.tasks import Threads, Work
 
 GRID = Grid.merl(12, 10, 8)
 """Large enough for several blocks with a patched block size, small enough for milliseconds."""
@@ -81,11 +81,11 @@ def files(folder):
 
 
 def test_results_come_in_order(cluster):
-    assert list(run(square, range(50), engine=cluster)) == [x * x for x in range(50)]
+    assert list(Work(engine=cluster).run(square, range(50))) == [x * x for x in range(50)]
 
 
 def test_a_library_is_the_same_bytes(cluster, folder, library, tmp_path):
-    build_library([folder], tmp_path / "again.brdflib", engine=cluster)
+    build_library([folder], tmp_path / "again.brdflib", work=Work(engine=cluster))
     assert files(tmp_path / "again.brdflib") == files(library.path)
 
 
@@ -93,8 +93,8 @@ def test_a_library_of_files_named_from_here_is_right_there_too(
     cluster, folder, tmp_path, monkeypatch
 ):
     monkeypatch.chdir(folder.parent)
-    built = build_library([folder.name], tmp_path / "here.brdflib", engine=cluster)
-    assert verify_library(built.library, engine=cluster) == (9, [], [])
+    built = build_library([folder.name], tmp_path / "here.brdflib", work=Work(engine=cluster))
+    assert verify_library(built.library, work=Work(engine=cluster)) == (9, [], [])
 
 
 def test_components_pictures_and_samples_are_the_same_bytes(cluster, library):
@@ -103,7 +103,7 @@ def test_components_pictures_and_samples_are_the_same_bytes(cluster, library):
         (Looks.fit, ("planes",)),
         (CellSamples.fit, ("values", "body")),
     ):
-        here, there = fit(library), fit(library, engine=cluster)
+        here, there = fit(library), fit(library, work=Work(engine=cluster))
         for field in fields:
             np.testing.assert_array_equal(getattr(here, field), getattr(there, field))
 
@@ -112,7 +112,7 @@ def test_tables_of_a_route_are_the_same_bytes(cluster, library, tmp_path):
     route = Route.through(LinearSpace(library.name, library.names), library.names[:3])
     ts = np.linspace(0, 1, 7).tolist()
     write_route(tmp_path / "here", route, ts, library, format="merl")
-    write_route(tmp_path / "there", route, ts, library, format="merl", engine=cluster)
+    write_route(tmp_path / "there", route, ts, library, format="merl", work=Work(engine=cluster))
     assert files(tmp_path / "there") == files(tmp_path / "here")
     assert len(files(tmp_path / "there")) == 9
 
@@ -120,7 +120,8 @@ def test_tables_of_a_route_are_the_same_bytes(cluster, library, tmp_path):
 def test_spaces_measure_the_same(cluster, library):
     pca = Pca.fit(library)
     here, there = (
-        compare_spaces(library, pca, n_pairs=3, engine=engine) for engine in (THREADS, cluster)
+        compare_spaces(library, pca, n_pairs=3, work=Work(engine=engine))
+        for engine in (Threads(), cluster)
     )
     assert here == there
 
@@ -143,7 +144,10 @@ def test_components_are_the_same_bytes_when_a_worker_is_killed(
 ):
     blocks = [slice(start, start + 40) for start in range(0, GRID.size, 40)]
     monkeypatch.setattr(StoredLibrary, "blocks", lambda _: blocks)
-    here, there = Pca.fit(library), Pca.fit(library, engine=cluster, track=kill_one)
+    here, there = (
+        Pca.fit(library),
+        Pca.fit(library, work=Work(engine=cluster, track=kill_one)),
+    )
     np.testing.assert_array_equal(here.eigenvectors, there.eigenvectors)
     np.testing.assert_array_equal(here.eigenvalues, there.eigenvalues)
 
@@ -153,14 +157,19 @@ def test_tables_are_the_same_bytes_when_a_worker_is_killed(cluster, library, kil
     ts = np.linspace(0, 1, 24).tolist()
     write_route(tmp_path / "here", route, ts, library, format="merl")
     write_route(
-        tmp_path / "there", route, ts, library, format="merl", engine=cluster, track=kill_one
+        tmp_path / "there",
+        route,
+        ts,
+        library,
+        format="merl",
+        work=Work(engine=cluster, track=kill_one),
     )
     assert files(tmp_path / "there") == files(tmp_path / "here")
 
 
 def test_a_mistake_is_the_same_mistake(cluster):
     with pytest.raises(FormatError, match=r"^0\.binary is damaged: expected a table\."):
-        list(run(refuse, range(3), engine=cluster))
+        list(Work(engine=cluster).run(refuse, range(3)))
 
 
 class Counted(Sequence[int]):
@@ -183,7 +192,7 @@ def test_few_results_wait(cluster):
     """Back-pressure: what nobody took yet is bounded, on a cluster as on threads."""
     for engine, bound in ((Threads(2), 4), (cluster, 7)):
         tasks = Counted()
-        results = run(square, tasks, engine=engine)
+        results = Work(engine=engine).run(square, tasks)
         next(results)
         assert tasks.n_taken <= bound
         results.close()
@@ -252,9 +261,9 @@ def test_workers_that_stay_away_are_told_of_and_one_that_comes_is_waited_for(mon
         Client(empty.scheduler_address, set_as_default=False) as client,
     ):
         with pytest.raises(ClusterError, match=r"has had no worker for 1 s: expected some that"):
-            list(run(square, range(1), engine=Cluster(client)))
+            list(Work(engine=Cluster(client)).run(square, range(1)))
         monkeypatch.setattr("halfway.cluster.LONELY_SECONDS", 60.0)
-        results = run(square, range(9), engine=Cluster(client))
+        results = Work(engine=Cluster(client)).run(square, range(9))
         empty.scale(1)
         assert list(results) == [x * x for x in range(9)]
 
@@ -283,7 +292,7 @@ def test_without_the_package_one_line_says_what_to_install(monkeypatch):
 # The last: workers take seconds to come back.
 def test_a_task_that_kills_every_worker_is_given_up(cluster):
     with pytest.raises(ClusterError, match="lost 2 workers on one task: expected none to die"):
-        list(run(die, range(1), engine=cluster))
+        list(Work(engine=cluster).run(die, range(1)))
 
 
 def test_a_scheduler_killed_in_the_middle_is_one_line(monkeypatch):

@@ -78,9 +78,6 @@ def small(monkeypatch, tmp_path, cache):
     monkeypatch.setattr("halfway.library.opening.ProceduralLibrary", coarse)
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(console, "cache_folder", lambda: cache)
-    for name, module in list(sys.modules.items()):
-        if name.startswith("halfway.cli.") and hasattr(module, "cache_folder"):
-            monkeypatch.setattr(module, "cache_folder", lambda: cache)
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)

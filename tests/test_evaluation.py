@@ -26,6 +26,7 @@ from halfway.models import AbcModel
 from halfway.space import LinearSpace, PaperSpace, Space, Triangulation
 from halfway.space.hull import nearest_in_hull
 from halfway.space.spaces import Leg
+from halfway.tasks import Work
 
 GRID = Grid.merl(10, 8, 12)
 COLOURS = {
@@ -231,7 +232,9 @@ def test_a_material_without_a_body_colour_is_named():
 
 
 def test_samples_come_back_from_the_cache(library: ProceduralLibrary, tmp_path):
-    first, again = (CellSamples.fit(library, n_cells=300, cache=tmp_path) for _ in range(2))
+    first, again = (
+        CellSamples.fit(library, n_cells=300, work=Work(cache=tmp_path)) for _ in range(2)
+    )
     assert len(list(tmp_path.iterdir())) == 1
     assert (first.values == again.values).all()
     assert (first.body == again.body).all()

@@ -25,7 +25,7 @@ from halfway.errors import FormatError, LibraryError, OutputError
 from halfway.formats import write_merl
 from halfway.halfdiff import Grid
 from halfway.library import StoredLibrary, verify_library
-from halfway.tasks import silent
+from halfway.tasks import Work, silent
 
 GRID = Grid.merl(30, 20, 36)
 """Some ten milliseconds a library: a process can be killed in the middle."""
@@ -95,7 +95,7 @@ def test_a_disk_that_fills_up_keeps_the_old_library(tmp_path):
                     file.write(bytes(one // 2))
 
         with pytest.raises(OutputError, match=r"cannot be written: the disk is full\. Free some"):
-            build_library([new], path, track=fill)
+            build_library([new], path, work=Work(track=fill))
         assert (len(open_library(path)), what_is_at(path)) == (2, "a whole library")
         assert not hidden(disk)
         (disk / "filler").unlink()
@@ -179,7 +179,7 @@ def test_a_source_that_shrinks_while_it_is_read_leaves_the_old_library(library, 
         return silent(items, label, total)
 
     with pytest.raises(FormatError, match=r"material-3\.binary (ended after|is .* shorter)"):
-        build_library([tmp_path / "tiny"], library.path, track=cut)
+        build_library([tmp_path / "tiny"], library.path, work=Work(track=cut))
     assert what_is_at(library.path) == "a whole library"
     assert not hidden(tmp_path)
 

@@ -15,6 +15,7 @@ from halfway.errors import LibraryError, OutputError
 from halfway.formats import write_merl
 from halfway.halfdiff import Grid
 from halfway.library import ProceduralLibrary, StoredLibrary
+from halfway.tasks import Work
 
 
 @pytest.fixture
@@ -262,7 +263,7 @@ def test_a_cache_that_cannot_be_written_costs_only_time(tmp_path):
 
 def test_a_library_is_added_to(stored, folder, tmp_path):
     """The materials that were there stay as they are, and components are completed from the cache."""
-    Pca.fit(stored, cache=tmp_path / "cache")
+    Pca.fit(stored, work=Work(cache=tmp_path / "cache"))
     more = tmp_path / "more"
     more.mkdir()
     write_merl(more / "new.binary", random_tables(1, TINY, seed=5)["material-0"])
@@ -270,7 +271,7 @@ def test_a_library_is_added_to(stored, folder, tmp_path):
     assert grown.names == (*stored.names, "new")
     assert grown.entries[:4] == stored.entries
     assert grown.material_checksums[:4] == stored.material_checksums
-    completed, anew = Pca.fit(grown, cache=tmp_path / "cache"), Pca.fit(grown)
+    completed, anew = Pca.fit(grown, work=Work(cache=tmp_path / "cache")), Pca.fit(grown)
     assert_allclose(completed.eigenvalues, anew.eigenvalues, atol=1e-10 * anew.eigenvalues.max())
     with pytest.raises(LibraryError, match=r"material-0 is there twice, as .* Rename one"):
         build_library([stored.path, folder], stored.path)

@@ -20,6 +20,7 @@ from halfway.notebook.messages import Answerer
 from halfway.server.app import app_of
 from halfway.server.explorer import Explorer as Answers
 from halfway.server.schema import Place
+from halfway.tasks import Work
 
 EXAMPLE = Path(__file__).parents[1] / "examples" / "explore.ipynb"
 ENDS = ["material-0", "material-4"]
@@ -32,7 +33,7 @@ def answers(small_library: Library) -> Answers:
 
 @pytest.fixture
 def explorer(small_library: Library) -> Explorer:
-    return Explorer(small_library, ENDS, space="linear", pace="uniform", cache=None)
+    return Explorer(small_library, ENDS, space="linear", pace="uniform", work=Work())
 
 
 def test_the_recipe_follows_the_place(explorer: Explorer) -> None:

@@ -19,6 +19,7 @@ from halfway.export.report import Report, table_row
 from halfway.halfdiff import Grid
 from halfway.library import ProceduralLibrary
 from halfway.models import synthetic
+from halfway.tasks import Work
 
 GRID = Grid.merl(6, 5, 8)
 
@@ -124,7 +125,7 @@ def test_one_material_is_too_few():
 
 
 def test_a_cached_fit_is_the_fit(small_library, tmp_path):
-    first, again = (Pca.fit(small_library, cache=tmp_path) for _ in range(2))
+    first, again = (Pca.fit(small_library, work=Work(cache=tmp_path)) for _ in range(2))
     np.testing.assert_array_equal(first.eigenvectors, again.eigenvectors)
     assert sorted(path.name.split("-")[0] for path in tmp_path.iterdir()) == ["components", "gram"]
 
@@ -218,8 +219,8 @@ def test_a_matrix_of_other_materials_is_not_completed():
 
 
 def test_a_library_that_grew_is_completed_from_the_cache(tmp_path):
-    Pca.fit(grown(9), cache=tmp_path)
-    found = kept_gram(grown(12), tmp_path)
+    Pca.fit(grown(9), work=Work(cache=tmp_path))
+    found = kept_gram(grown(12), work=Work(cache=tmp_path))
     assert_same_gram(found, Gram.of(grown(12)))
     # Only a matrix that was completed keeps the origin and the old products to the last bit.
     old = unpack(Gram.of(grown(9)).products[0], 9)
@@ -227,21 +228,23 @@ def test_a_library_that_grew_is_completed_from_the_cache(tmp_path):
 
 
 def test_damaged_products_are_not_completed(tmp_path):
-    kept_gram(grown(9), tmp_path)
+    kept_gram(grown(9), work=Work(cache=tmp_path))
     (path,) = tmp_path.iterdir()
     with zipfile.ZipFile(path) as archive:
         start = archive.getinfo("products.npy").header_offset
     data = bytearray(path.read_bytes())
     data[start + 400] ^= 16
     path.write_bytes(data)
-    assert_same_gram(kept_gram(grown(12), tmp_path), Gram.of(grown(12)))
+    assert_same_gram(kept_gram(grown(12), work=Work(cache=tmp_path)), Gram.of(grown(12)))
 
 
 def test_a_damaged_cache_is_made_anew(tmp_path):
-    wanted = Pca.fit(grown(5), cache=tmp_path)
+    wanted = Pca.fit(grown(5), work=Work(cache=tmp_path))
     for path in tmp_path.iterdir():
         path.write_bytes(path.read_bytes()[:100])
-    np.testing.assert_array_equal(Pca.fit(grown(5), cache=tmp_path).eigenvalues, wanted.eigenvalues)
+    np.testing.assert_array_equal(
+        Pca.fit(grown(5), work=Work(cache=tmp_path)).eigenvalues, wanted.eigenvalues
+    )
 
 
 def test_a_common_offset_costs_no_digits():
@@ -316,7 +319,7 @@ def doubled(n):
 def test_a_large_library_is_sketched(synthetic_300, monkeypatch, tmp_path):
     exact = Pca.fit(synthetic_300, n_components=30)
     monkeypatch.setattr("halfway.components.pca.MOST_EXACT", 100)
-    found = Pca.fit(synthetic_300, n_components=30, cache=tmp_path)
+    found = Pca.fit(synthetic_300, n_components=30, work=Work(cache=tmp_path))
     assert_allclose(found.eigenvalues[:, :10], exact.eigenvalues[:, :10], rtol=1e-6)
     k = 10
     left = exact.squared_residuals(k).sum(), found.squared_residuals(k).sum()
@@ -328,7 +331,7 @@ def test_a_large_library_is_sketched(synthetic_300, monkeypatch, tmp_path):
 FIRST_FIT = """
 from threadpoolctl import threadpool_info
 from halfway import Pca, open_library
-from halfway.library import pca
+from halfway.components import pca
 
 threads = set()
 

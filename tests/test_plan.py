@@ -13,7 +13,7 @@ from halfway.components.gram import Gram
 from halfway.components.sketch import sketch
 from halfway.halfdiff import Grid
 from halfway.library import ProceduralLibrary, blocks
-from halfway.tasks import Threads
+from halfway.tasks import Threads, Work
 
 
 @pytest.fixture
@@ -47,8 +47,8 @@ def test_working_memory_is_bounded_by_the_plan(monkeypatch, method):
         monkeypatch.setattr("halfway.components.plan.MOST_EXACT", 10)
     plan = PcaPlan.of(made, n_components=10, n_threads=2)
     work = {
-        "exact": lambda: Gram.of(made, engine=Threads(2)),
-        "sketch": lambda: sketch(made, 10, engine=Threads(2)),
+        "exact": lambda: Gram.of(made, work=Work(engine=Threads(2))),
+        "sketch": lambda: sketch(made, 10, work=Work(engine=Threads(2))),
     }
     tables = 12 * len(made) * made.grid.size
     assert plan.peak_bytes == PcaPlan.of(library(60, 12), n_components=10, n_threads=2).peak_bytes

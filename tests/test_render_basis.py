@@ -8,6 +8,7 @@ from halfway.brdf import TabularBrdf
 from halfway.errors import RenderError
 from halfway.halfdiff import Grid
 from halfway.render import BasisPictures, Renderer
+from halfway.tasks import Work
 
 GRID = Grid.merl(12, 10, 12)
 RNG = np.random.default_rng(5)
@@ -59,14 +60,18 @@ def test_each_material_is_rendered_once(renderer):
 
 
 def test_pictures_are_kept_between_runs_by_scene_and_material(renderer, tmp_path):
-    first = BasisPictures(renderer, TABLES.__getitem__, cache=tmp_path).picture(NAMES, WEIGHTS)
+    first = BasisPictures(renderer, TABLES.__getitem__, work=Work(cache=tmp_path)).picture(
+        NAMES, WEIGHTS
+    )
     kept = {path: path.stat().st_ino for path in tmp_path.iterdir()}
     assert len(kept) == len(NAMES)
-    again = BasisPictures(renderer, TABLES.__getitem__, cache=tmp_path).picture(NAMES, WEIGHTS)
+    again = BasisPictures(renderer, TABLES.__getitem__, work=Work(cache=tmp_path)).picture(
+        NAMES, WEIGHTS
+    )
     assert_array_equal(again, first)
     assert {path: path.stat().st_ino for path in tmp_path.iterdir()} == kept
     other = {"dark": TABLES["bright"]}
-    BasisPictures(renderer, other.__getitem__, cache=tmp_path).render(["dark"])
+    BasisPictures(renderer, other.__getitem__, work=Work(cache=tmp_path)).render(["dark"])
     assert len(list(tmp_path.iterdir())) == len(NAMES)  # the same table under another name
 
 

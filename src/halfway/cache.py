@@ -18,14 +18,12 @@ MOST_BYTES = 2e9
 
 
 def cached(
-    folder: Path | None, key: str, compute: Callable[[], dict[str, np.ndarray]]
+    folder: Path, key: str, compute: Callable[[], dict[str, np.ndarray]]
 ) -> dict[str, np.ndarray]:
     """The arrays that ``compute`` gives, from ``folder`` when it has them under ``key``.
 
     A folder that cannot be written costs the time to compute again, never the result; a damaged file is replaced.
     """
-    if folder is None:
-        return compute()
     path = folder / f"{key}.npz"
     try:
         with path.open("rb") as file, np.load(file, allow_pickle=False) as archive:

@@ -1,4 +1,4 @@
-"""One way to do many things at once: ``run(f, tasks)``.
+"""One way to do many things at once: ``work.run(f, tasks)``.
 
 Tasks are pure functions of small arguments (paths, column ranges, recipes); results come back in the order of the
 tasks, so a sum over them does not depend on who finished first. An `Engine` says where they run: `Threads` of this
@@ -13,9 +13,13 @@ from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Protocol, TypeVar, runtime_checkable
 
+import numpy as np
 from threadpoolctl import threadpool_limits
+
+from .cache import cached
 
 T = TypeVar("T")
 R = TypeVar("R")
@@ -63,20 +67,29 @@ class Threads(Engine):
                 pool.shutdown(wait=True, cancel_futures=True)
 
 
-THREADS = Threads()
+@dataclass(frozen=True)
+class Work:
+    """How long work is done: where its tasks run, who sees how far it is, where dear results are kept."""
+
+    engine: Engine = Threads()
+    track: Track = silent
+    cache: Path | None = None
+    """A folder for results that are small and dear; None keeps nothing."""
+
+    def run(self, f: Callable[[T], R], tasks: Sequence[T], *, label: str = "") -> Iterator[R]:
+        """``f`` of every task, in order, on the engine.
+
+        On a cluster ``f`` and the tasks are pickled: ``f`` is a function of a module, or a `functools.partial` of one whose
+        arguments it shares between the tasks, and each worker gets those once.
+        """
+        yield from self.track(self.engine.map(f, tasks), label, len(tasks))
+
+    def cached(
+        self, key: str, compute: Callable[[], dict[str, np.ndarray]]
+    ) -> dict[str, np.ndarray]:
+        """The arrays that ``compute`` gives, from the cache folder when it has them under ``key``."""
+        return compute() if self.cache is None else cached(self.cache, key, compute)
 
 
-def run(
-    f: Callable[[T], R],
-    tasks: Sequence[T],
-    *,
-    label: str = "",
-    track: Track = silent,
-    engine: Engine = THREADS,
-) -> Iterator[R]:
-    """``f`` of every task, in order, on an engine.
-
-    On a cluster ``f`` and the tasks are pickled: ``f`` is a function of a module, or a `functools.partial` of one whose
-    arguments it shares between the tasks, and each worker gets those once.
-    """
-    yield from track(engine.map(f, tasks), label, len(tasks))
+HERE = Work()
+"""Threads of this process, in silence; nothing is kept."""

@@ -26,11 +26,12 @@ from halfway.halfdiff import Grid
 from halfway.library import ProceduralLibrary
 from halfway.models import builtin
 from halfway.notebook import Explorer
+from halfway.tasks import Work
 
 models = builtin("merl-abc").models
 names = ["cherry-235", "chrome", "gold-paint", "pink-felt", "teflon"]
 library = ProceduralLibrary("browser", {name: models[name] for name in names}, grid=Grid.merl(60, 30, 36))
-explorer = Explorer(library, ["cherry-235", "teflon"], space="linear", pace="uniform", cache=None)
+explorer = Explorer(library, ["cherry-235", "teflon"], space="linear", pace="uniform", work=Work())
 explorer
 """
 PYTHON_MOVES = """

@@ -17,7 +17,7 @@ from typing import Any
 from ..errors import OutputError
 from ..files import explaining, require_space, sweep
 from ..locations import Location, RemotePath, append_text
-from ..tasks import Track, silent
+from ..tasks import HERE, Work
 from .manifest import JOURNAL, Checksum, Entry, Manifest, journal_line, right_files
 
 
@@ -43,7 +43,7 @@ class Batch:
         *,
         made: Mapping[str, Any],
         n_bytes: int,
-        track: Track = silent,
+        work: Work = HERE,
     ) -> Generator["Batch"]:
         """The batch of ``outputs`` in ``folder``; when the block ends and all of them are there, so is manifest.json.
 
@@ -67,7 +67,7 @@ class Batch:
             When the folder's manifest cannot be read.
         """
         with _folder(folder), _alone(folder):
-            manifest = _prepare(folder, outputs, made, n_bytes, track)
+            manifest = _prepare(folder, outputs, made, n_bytes, work)
             yield cls(folder, outputs, manifest.entries)
             manifest = Manifest.read(folder)
             if manifest is not None and manifest.finished:
@@ -128,7 +128,7 @@ def _prepare(
     outputs: Mapping[str, Any],
     made: Mapping[str, Any],
     n_bytes: int,
-    track: Track,
+    work: Work,
 ) -> Manifest:
     """Leave what is right, remove what is not, and write the journal's first lines."""
     old = Manifest.read(folder) or Manifest(made)
@@ -137,7 +137,7 @@ def _prepare(
     same = old.entries if old.made == made else {}
     others = {name: entry for name, entry in same.items() if name not in outputs}
     ours = {name: e for name, e in same.items() if name in outputs and e.of == outputs[name]}
-    right = right_files(folder, ours, track=track)
+    right = right_files(folder, ours, work=work)
     entries = others | {name: ours[name] for name in outputs if name in right}
     names = frozenset(outputs) | (old.names if old.made == made else frozenset())
     gone = [path for name in old.names if name not in entries and (path := folder / name).is_file()]

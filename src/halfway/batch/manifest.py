@@ -24,7 +24,7 @@ from typing import Any, NamedTuple
 from ..errors import FormatError
 from ..files import replacing
 from ..locations import Location, name_in
-from ..tasks import Track, run, silent
+from ..tasks import HERE, Work
 
 FORMAT = 1
 MANIFEST = "manifest.json"
@@ -133,7 +133,7 @@ class Verdict(NamedTuple):
         return not (self.missing or self.changed or self.foreign)
 
 
-def verify(folder: Location, *, track: Track = silent) -> Verdict:
+def verify(folder: Location, *, work: Work = HERE) -> Verdict:
     """Read every file of a folder and compare it with the manifest.
 
     Raises
@@ -151,7 +151,7 @@ def verify(folder: Location, *, track: Track = silent) -> Verdict:
             f"{folder} has no {MANIFEST}: expected a folder that `halfway route` or `halfway render` wrote."
         )
     there = {name_in(folder, path) for path in folder.rglob("*") if path.is_file()}
-    right = right_files(folder, manifest.entries, track=track)
+    right = right_files(folder, manifest.entries, work=work)
     ours = manifest.names | {MANIFEST, JOURNAL}
     changed = (manifest.entries.keys() & there) - right
     return Verdict(
@@ -162,12 +162,10 @@ def verify(folder: Location, *, track: Track = silent) -> Verdict:
     )
 
 
-def right_files(
-    folder: Location, entries: Mapping[str, Entry], *, track: Track = silent
-) -> set[str]:
+def right_files(folder: Location, entries: Mapping[str, Entry], *, work: Work = HERE) -> set[str]:
     """The names of those entries whose files have the bytes that they had when they were finished."""
     names = list(entries)
-    checks = run(partial(_is_right, folder, entries), names, label="Checking", track=track)
+    checks = work.run(partial(_is_right, folder, entries), names, label="Checking")
     return {name for name, right in zip(names, checks, strict=True) if right}
 
 

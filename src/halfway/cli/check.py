@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from .console import say, track
+from .console import say, work
 
 if TYPE_CHECKING:
     from ..brdf import ValidityCard
@@ -37,8 +37,6 @@ def check(
     halfway check builtin:merl-abc
     halfway check damaged.binary --repair -o sound.binary
     """
-    from halfway.tasks import run
-
     from .materials import to_materials
 
     materials = to_materials(words)
@@ -46,7 +44,7 @@ def check(
         _repair(materials, output)
         return
     names = words if len(words) == len(materials) else [material.label for material in materials]
-    checked = run(_card, materials, label="Checking", track=track)
+    checked = work().run(_card, materials, label="Checking")
     cards = list(zip(names, checked, strict=True))
     print(_as_json(cards) if as_json else _as_lines(cards))
     n_broken = sum(not card.ok for _, card in cards)

@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 from ..locations import to_location
-from .console import cache_folder, engine, say, track
+from .console import say, working
 from .options import Scheduler
 
 
@@ -59,15 +59,13 @@ def compact(
 
     library = open_library(lib)
     coding = Coding(mapping.value, shared, precision.value)
-    with engine(scheduler) as where:
+    with working(scheduler) as work:
         made = compact_library(
             library,
             to_location(output),
             n_components=components,
             coding=coding,
-            cache=cache_folder(),
-            track=track,
-            engine=where,
+            work=work,
         )
     say("\n".join([f"{output}: {len(made)} materials on {made.grid}", *compact_lines(made)]))
     say(f"Next: halfway route {output} A B")

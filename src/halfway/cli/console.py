@@ -5,6 +5,7 @@ import time
 import warnings
 from collections.abc import Callable, Generator, Iterable, Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from io import TextIOWrapper
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
@@ -12,7 +13,7 @@ from typing import TYPE_CHECKING, TypeVar
 from ..errors import HalfwayError
 
 if TYPE_CHECKING:
-    from ..tasks import Engine
+    from ..tasks import Work
 
 T = TypeVar("T")
 
@@ -64,13 +65,18 @@ def _rate(per_second: float) -> str:
     return f"{per_second:.1f}/s" if per_second >= 1 else f"{1 / per_second:.1f} s each"
 
 
-@contextmanager
-def engine(scheduler: str) -> "Generator[Engine]":
-    """Where tasks run: on the cluster with this address, or here where it is empty."""
-    from ..tasks import THREADS
+def work() -> "Work":
+    """Work on this machine, with progress bars and the user's cache."""
+    from ..tasks import Work
 
+    return Work(track=track, cache=cache_folder())
+
+
+@contextmanager
+def working(scheduler: str) -> "Generator[Work]":
+    """`work` whose tasks run on the cluster with this address, or here where it is empty."""
     if not scheduler:
-        yield THREADS
+        yield work()
         return
     import logging
 
@@ -79,7 +85,7 @@ def engine(scheduler: str) -> "Generator[Engine]":
     logging.disable(logging.CRITICAL)  # what goes wrong is told in one line, once
     try:
         with Cluster.at(scheduler) as cluster:
-            yield cluster
+            yield replace(work(), engine=cluster)
     finally:
         logging.disable(logging.NOTSET)
 

@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from .console import cache_folder, say, track
+from .console import say, work
 
 STOPS = ("light-brown-fabric", "blue-fabric")
 SIZE = (320, 260)
@@ -34,20 +34,21 @@ def demo(
 
     library = open_library(DEFAULT_LIBRARY)
     say(f"Library {library.name}: {library.origin.description}.")
-    pca = Pca.fit(library, cache=cache_folder(), track=track)
+    pca = Pca.fit(library, work=work())
     write_report(output / "report", library, pca)
-    space = make_space("paper", library, cache=cache_folder(), track=track)
+    space = make_space("paper", library, work=work())
     route = Route.through(space, STOPS)
     ts = route.steps(51)
-    write_route(output, route, ts, library, track=track)
+    write_route(output, route, ts, library, work=work())
     mixer = Mixer(library)
     tables = [mixer.mix(recipe) for recipe in (route.recipe(ts[i]) for i in NEW_MATERIALS)]
     for i, table in zip(NEW_MATERIALS, tables, strict=True):
         write_brdf(output / f"{i:03d}.binary", table)
 
-    basis = BasisPictures(Renderer("teapot", size=SIZE, spp=SPP), library.brdf)
+    renderer = Renderer("teapot", size=SIZE, spp=SPP)
+    basis = BasisPictures(renderer, library.brdf, work=work())
     recipes = route.recipes(ts)
-    basis.render(sorted({name for recipe in recipes for name in recipe.names}), track=track)
+    basis.render(sorted({name for recipe in recipes for name in recipe.names}))
     images = [basis.picture(recipe.names, recipe.weights) for recipe in recipes]
     shown = [round(i * 50 / (N_IN_STRIP - 1)) for i in range(N_IN_STRIP)]
     strip = pictures.strip([images[i] for i in shown], labels=[f"t = {ts[i]:.2f}" for i in shown])

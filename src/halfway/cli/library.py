@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from .compact import compact, compact_lines
-from .console import engine, say, track
+from .console import say, working
 from .options import AsJson, Scheduler
 
 if TYPE_CHECKING:
@@ -53,14 +53,13 @@ def build(
     from .arguments import parse_grid
 
     origin = Origin("built from files", source, licence) if licence or source else None
-    with engine(scheduler) as where:
+    with working(scheduler) as work:
         built = build_library(
             sources,
             to_location(output),
             origin=origin,
             grid=parse_grid(grid) if grid else None,
-            track=track,
-            engine=where,
+            work=work,
         )
     for line in skipped_lines(built.skipped):
         say(line)
@@ -141,8 +140,8 @@ def verify(
     """
     from halfway.library import open_library, verify_library
 
-    with engine(scheduler) as where:
-        found = verify_library(open_library(lib), track=track, engine=where)
+    with working(scheduler) as work:
+        found = verify_library(open_library(lib), work=work)
     kinds = {"damaged": found.damaged, "changed": found.changed}
     if as_json:
         document = {"format": 1, "library": lib, "ok": found.ok, "right": found.n_right}

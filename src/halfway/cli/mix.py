@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from .console import cache_folder, say, track
+from .console import say, work
 
 
 def mix(
@@ -44,7 +44,7 @@ def mix(
             raise ArgumentError("--point and a recipe are given: a material takes one of them.")
         library = open_library(words[0] if words else DEFAULT_LIBRARY)
         x = parse_point(point)
-        made = anchored_space(library, cache=cache_folder(), track=track)
+        made = anchored_space(library, work=work())
         recipe = made.recipe(x, clamp=clamp)
     else:
         library, recipe = to_recipe(words or [])

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from . import options
-from .console import cache_folder, say, track
+from .console import say, track, work
 from .options import Layout, PictureFormat, Quality
 
 if TYPE_CHECKING:
@@ -98,7 +98,7 @@ def _render_folder(
         Frame(name, material.of, partial(paint, material))
         for name, material in zip(file_names(materials, f".{format}"), materials, strict=True)
     ]
-    written = write_frames(folder, renderer, frames, exposure=exposure, track=track)
+    written = write_frames(folder, renderer, frames, exposure=exposure, work=work())
     kept = f", {written.n_kept:,} kept" if written.n_kept else ""
     pictures = "picture" if written.n_written == 1 else "pictures"
     say(f"{folder}: {written.n_written:,} {pictures} of the {renderer.scene.name} scene{kept}")
@@ -177,7 +177,7 @@ def _painter(
     (library, *others) = libraries.values()
     if library is None or others or not renderer.linear or len(names) > len(materials):
         return lambda material: renderer.picture(material.table())
-    basis = BasisPictures(renderer, library.brdf, cache=cache_folder())
+    basis = BasisPictures(renderer, library.brdf, work=work())
 
     def paint(material: "Material") -> "np.ndarray":
         assert material.recipe is not None  # a material of a library has one

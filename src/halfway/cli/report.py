@@ -6,7 +6,7 @@ from typing import Annotated, Any
 
 import typer
 
-from .console import cache_folder, engine, say, track
+from .console import say, working
 from .options import Scheduler
 
 
@@ -52,14 +52,11 @@ def report(
         )
         return
     compared: list[dict[str, Any]] = []
-    with engine(scheduler) as where:
-        cache = cache_folder()
-        pca = Pca.fit(library, cache=cache, track=track, engine=where)
+    with working(scheduler) as work:
+        pca = Pca.fit(library, work=work)
         if pairs:
             n_pairs = None if pairs < 0 else pairs
-            compared = compare_spaces(
-                library, pca, n_pairs=n_pairs, seed=seed, cache=cache, track=track, engine=where
-            )
+            compared = compare_spaces(library, pca, n_pairs=n_pairs, seed=seed, work=work)
     found = write_report(to_location(output), library, pca, spaces=compared)
     if as_json:
         print(json.dumps(found.to_json(), indent=1))

@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from .console import cache_folder, say, track
+from .console import say, work
 
 
 def reproduce(
@@ -35,6 +35,6 @@ def reproduce(
     library = open_library(lib)
     say(f"Library {library.name}: {library.origin.description}.")
     reproduced(
-        output, library, size=size, spp=spp, env=env, mesh=mesh, cache=cache_folder(), track=track
+        output, library, size=size, spp=spp, env=env, mesh=mesh, work=work()
     )  # fmt: skip
     say(f"{output}: page.html (and page.md), its pictures, and paper.json with every number")

@@ -3,7 +3,7 @@
 import json
 
 from . import options
-from .console import cache_folder, engine, say, track
+from .console import say, working
 from .options import Pace, SpaceName, TableFormat
 
 
@@ -50,19 +50,17 @@ def route(
     require_length(n)
     checked = wanted or straight.steps(n)
     straight.recipes([np.min(checked), np.max(checked)])
-    with engine(scheduler) as place:
+    with working(scheduler) as work:
         made = make_space(
             space,
             library,
             n_components=components,
             detour=detour,
-            cache=cache_folder(),
-            track=track,
-            engine=place,
+            work=work,
         )
         found = Route.through(made, stops)
         if pace is Pace.perceptual:
-            images = Looks.fit(library, cache=cache_folder(), track=track, engine=place)
+            images = Looks.fit(library, work=work)
             found = perceptual(found, images)
         ts = wanted or found.steps(n)
         if as_json:
@@ -70,7 +68,7 @@ def route(
         if output is None and as_json:
             return
         folder = to_location(output or "-to-".join(stops))
-        written = write_route(folder, found, ts, library, format=format, track=track, engine=place)
+        written = write_route(folder, found, ts, library, format=format, work=work)
     tables = f", {written.n_written} tables written" if format != "none" else ""
     kept = f", {written.n_kept} kept" if written.n_kept else ""
     say(f"{folder}: {len(ts)} recipes{tables}{kept}. Next: halfway render {folder} -o route.png")

@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from .console import cache_folder, track
+from .console import work
 
 
 def space(
@@ -27,7 +27,7 @@ def space(
 
     library = open_library(lib)
     library.index(near or library.names[0])
-    made = anchored_space(library, cache=cache_folder(), track=track)
+    made = anchored_space(library, work=work())
     neighbours = made.neighbours(near, n) if near else []
     if as_json:
         found = {"neighbours": dict(neighbours)} if near else {}

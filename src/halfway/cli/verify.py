@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from .console import say, track
+from .console import say, work
 from .options import AsJson
 
 N_SHOWN = 20
@@ -29,7 +29,7 @@ def verify(
     from halfway.batch import verify as verified
     from halfway.locations import to_location
 
-    found = verified(to_location(folder), track=track)
+    found = verified(to_location(folder), work=work())
     kinds = {"missing": found.missing, "changed": found.changed, "foreign": found.foreign}
     if as_json:
         document = {"format": 1, "folder": folder, "ok": found.ok, "right": found.n_right}

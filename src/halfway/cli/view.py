@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from .console import cache_folder, say, track
+from .console import say, work
 
 if TYPE_CHECKING:
     from ..library import Library
@@ -51,7 +51,7 @@ def view(
     else:
         from halfway.server import serve
 
-        serve(open_library(lib), port=port, open_browser=browser, cache=cache_folder(), track=track)
+        serve(open_library(lib), port=port, open_browser=browser, work=work())
 
 
 def _export(library: "Library", folder: Path, materials: str, n: int | None) -> None:
@@ -66,9 +66,9 @@ def _export(library: "Library", folder: Path, materials: str, n: int | None) -> 
     require_own(folder)
     names = [name.strip() for name in materials.split(",") if name.strip()]
     if not names:
-        images = Looks.fit(library, cache=cache_folder(), track=track)
+        images = Looks.fit(library, work=work())
         names = most_different(images, min(N_EXPORTED, len(library)) if n is None else n)
-    written = export(Subset(library, names), folder, Page.load(), cache=cache_folder(), track=track)
+    written = export(Subset(library, names), folder, Page.load(), work=work())
     say(f"{folder}: {', '.join(names)}")
     say(
         f"{written.n_files} files, {written.n_bytes / 1e6:.1f} MB. Any web server shows it: "

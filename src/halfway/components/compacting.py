@@ -9,7 +9,6 @@ because highlights and the rest differ by orders of magnitude.
 import hashlib
 from dataclasses import replace
 from functools import partial
-from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
@@ -31,7 +30,7 @@ from ..library import (
     write_compact,
 )
 from ..locations import Location, absolute
-from ..tasks import THREADS, Engine, Track, run, silent
+from ..tasks import HERE, Work
 from .pca import Pca
 
 RUN = 1024
@@ -45,11 +44,9 @@ def compact_library(
     *,
     n_components: int = N_COMPONENTS,
     coding: Coding = Coding(),  # noqa: B008 (frozen)
-    cache: Path | None = None,
-    track: Track = silent,
-    engine: Engine = THREADS,
+    work: Work = HERE,
 ) -> CompactLibrary:
-    """Write the compact library of ``library`` at ``path``, and measure it; with a ``cache`` folder its components are kept.
+    """Write the compact library of ``library`` at ``path``, and measure it; its components are kept in the cache.
 
     Raises
     ------
@@ -74,8 +71,8 @@ def compact_library(
             f"{library.name} cannot be kept in {n_components} components: it has {len(rows)} rows, and fewer are "
             f"expected, at least 1. {advice}"
         )
-    pca = Pca.fit(rows, n_components=n_components, cache=cache, track=track, engine=engine)
-    arrays = _arrays(rows, pca, track, engine)
+    pca = Pca.fit(rows, n_components=n_components, work=work)
+    arrays = _arrays(rows, pca, work)
     header = Header(
         library.grid,
         library.names,
@@ -87,7 +84,7 @@ def compact_library(
         {},
     )
     write_compact(path, header, arrays)
-    error = measured_error(library, CompactLibrary(path), track=track, engine=engine)
+    error = measured_error(library, CompactLibrary(path), work=work)
     write_compact(path, replace(header, error=error), arrays)
     return CompactLibrary(path)
 
@@ -124,13 +121,13 @@ class _Cut(NamedTuple):
     components: np.ndarray  # (n_bases, k, m)
 
 
-def _arrays(rows: CodedRows, pca: Pca, track: Track, engine: Engine) -> Arrays:
+def _arrays(rows: CodedRows, pca: Pca, work: Work) -> Arrays:
     # A component within rounding of nothing is nothing.
     least = len(rows) * np.finfo(float).eps * pca.eigenvalues[:, :1]
     roots = np.sqrt(np.where(pca.eigenvalues > least, pca.eigenvalues, np.inf))
     project = np.swapaxes(pca.eigenvectors / roots[:, None], 1, 2)
     cut = partial(_cut, rows, project, rows.coding.precision)
-    parts = list(run(cut, rows.blocks(), label="Components", track=track, engine=engine))
+    parts = list(work.run(cut, rows.blocks(), label="Components"))
     lengths = np.concatenate([part.lengths for part in parts])
     return Arrays(
         np.packbits(np.concatenate([part.cells for part in parts])),
@@ -177,9 +174,7 @@ def _stored(
     return step, in_steps.astype(precision)
 
 
-def measured_error(
-    library: Library, compact: Library, *, track: Track = silent, engine: Engine = THREADS
-) -> dict[str, float]:
+def measured_error(library: Library, compact: Library, *, work: Work = HERE) -> dict[str, float]:
     """What a library loses in ``compact``, over the cells that it keeps.
 
     ``mean_relative_error`` is Table I's, the mean over materials and channels of |p_i - q_i| / |p_i - C|; ``log_relative``
@@ -187,7 +182,7 @@ def measured_error(
     """
     compare = partial(_compared, library, compact)
     total = _Compared(np.zeros((3, len(library))), np.zeros((3, len(library))), np.zeros(2))
-    for part in run(compare, library.blocks(), label="Errors", track=track, engine=engine):
+    for part in work.run(compare, library.blocks(), label="Errors"):
         for whole, piece in zip(total, part, strict=True):
             whole += piece
     relative = np.sqrt(total.squared / np.where(total.centred > 0, total.centred, 1.0))

@@ -26,7 +26,7 @@ from jaxtyping import Float64, Int
 
 from ..errors import LibraryError
 from ..library import Streamed
-from ..tasks import THREADS, Engine, Track, silent
+from ..tasks import HERE, Work
 from .sums import join_channels, measured_pieces, sum_blocks
 
 Products = Float64[np.ndarray, "n_channels n_pairs"]
@@ -49,7 +49,7 @@ class Gram:
     """Cells that count: measured in every material."""
 
     @classmethod
-    def of(cls, library: Streamed, *, track: Track = silent, engine: Engine = THREADS) -> "Gram":
+    def of(cls, library: Streamed, *, work: Work = HERE) -> "Gram":
         """The products of all materials of ``library``, in one pass.
 
         Raises
@@ -58,12 +58,10 @@ class Gram:
             When no cell is measured in every material.
         """
         n = len(library)
-        total = _sum(library, Part(np.arange(n), 0), track, engine)
+        total = _sum(library, Part(np.arange(n), 0), work)
         return cls(library.material_checksums, 0, total.products, total.norms, total.n_cells)
 
-    def extended(
-        self, library: Streamed, *, track: Track = silent, engine: Engine = THREADS
-    ) -> "Gram":
+    def extended(self, library: Streamed, *, work: Work = HERE) -> "Gram":
         """The products of all materials of ``library``, which has those of this matrix among others.
 
         One pass that computes the products of the new materials with all; as exact as `Gram.of`.
@@ -81,9 +79,9 @@ class Gram:
             )
         known = np.array([place[checksum] for checksum in self.materials])
         new = np.setdiff1d(np.arange(len(library)), known)
-        total = _sum(library, Part(new, int(known[self.origin])), track, engine)
+        total = _sum(library, Part(new, int(known[self.origin])), work)
         if (total.n_cells != self.n_cells).any():
-            return Gram.of(library, track=track, engine=engine)
+            return Gram.of(library, work=work)
         norms = np.empty((library.n_channels, len(library)))
         norms[:, known], norms[:, new] = self.squared_norms, total.norms
         products = [
@@ -135,9 +133,9 @@ class _Sum(NamedTuple):
     n_cells: Int[np.ndarray, " n_channels"]
 
 
-def _sum(library: Streamed, part: Part, track: Track, engine: Engine) -> _Sum:
+def _sum(library: Streamed, part: Part, work: Work) -> _Sum:
     block = partial(gram_block, library, part)
-    return sum_blocks(library, block, label="Gram matrices", track=track, engine=engine)
+    return sum_blocks(library, block, label="Gram matrices", work=work)
 
 
 def gram_block(library: Streamed, part: Part, columns: slice) -> _Sum:

@@ -9,9 +9,8 @@ from pathlib import Path
 
 import numpy as np
 
-from ..cache import cached
 from ..library import Streamed
-from ..tasks import THREADS, Engine, Track, silent
+from ..tasks import HERE, Work
 from .gram import Gram
 
 _KEY = "gram-2-"
@@ -19,22 +18,17 @@ _KEY = "gram-2-"
 
 def kept_gram(
     library: Streamed,
-    cache: Path | None,
     *,
-    track: Track = silent,
-    engine: Engine = THREADS,
+    work: Work = HERE,
 ) -> Gram:
-    """The Gram matrices of ``library``, from the ``cache`` folder as far as it has them; kept there."""
+    """The Gram matrices of ``library``, from the cache folder as far as it has them; kept there."""
 
     def compute() -> dict[str, np.ndarray]:
-        start = _largest_part(library, cache) if cache is not None else None
-        if start is None:
-            gram = Gram.of(library, track=track, engine=engine)
-        else:
-            gram = start.extended(library, track=track, engine=engine)
+        start = _largest_part(library, work.cache) if work.cache is not None else None
+        gram = start.extended(library, work=work) if start else Gram.of(library, work=work)
         return {field.name: np.asarray(getattr(gram, field.name)) for field in fields(Gram)}
 
-    return _to_gram(cached(cache, f"{_KEY}{library.checksum}", compute))
+    return _to_gram(work.cached(f"{_KEY}{library.checksum}", compute))
 
 
 def _largest_part(library: Streamed, cache: Path) -> Gram | None:

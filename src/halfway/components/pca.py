@@ -22,7 +22,6 @@ Materials from Tabular BRDFs", section III.
 
 from dataclasses import dataclass
 from functools import partial
-from pathlib import Path
 
 import numpy as np
 from jaxtyping import Float64
@@ -30,10 +29,9 @@ from threadpoolctl import threadpool_limits
 
 from .._types import Table
 from ..brdf import TabularBrdf
-from ..cache import cached
 from ..errors import LibraryError
 from ..library import Library, Streamed
-from ..tasks import THREADS, Engine, Track, run, silent
+from ..tasks import HERE, Work
 from .gram import Gram
 from .gram_cache import kept_gram
 from .sketch import N_PASSES, sketch
@@ -67,13 +65,11 @@ class Pca:
         library: Streamed,
         *,
         n_components: int | None = None,
-        cache: Path | None = None,
-        track: Track = silent,
-        engine: Engine = THREADS,
+        work: Work = HERE,
     ) -> "Pca":
         """The components of ``library``: all, or the leading ``n_components`` (`N_KEPT` of a library of more materials).
 
-        Exact up to `MOST_EXACT` materials, and by `halfway.components.sketch` beyond. With a ``cache`` folder, what was read of
+        Exact up to `MOST_EXACT` materials, and by `halfway.components.sketch` beyond. With a cache folder, what was read of
         the samples is kept there; a library that grew is then only completed by its new materials.
 
         Raises
@@ -88,11 +84,11 @@ class Pca:
 
         def compute() -> dict[str, np.ndarray]:
             if n > MOST_EXACT:
-                return sketch(library, k, track=track, engine=engine)._asdict()
-            return _components(kept_gram(library, cache, track=track, engine=engine), k)
+                return sketch(library, k, work=work)._asdict()
+            return _components(kept_gram(library, work=work), k)
 
         method = "exact" if n <= MOST_EXACT else f"sketch-{N_PASSES}"
-        found = cached(cache, f"components-1-{method}-{k}-{library.checksum}", compute)
+        found = work.cached(f"components-1-{method}-{k}-{library.checksum}", compute)
         return cls._of(library.names, **found)
 
     @classmethod
@@ -149,7 +145,7 @@ class Pca:
         # The weights are over p_j = C + u_j, and C counts once.
         weights = 1 / len(self.names) + projection - projection.mean(axis=1, keepdims=True)
         combine = partial(_combine, library, weights)
-        values: Table = np.concatenate(list(run(combine, library.blocks())), axis=1)
+        values: Table = np.concatenate(list(HERE.run(combine, library.blocks())), axis=1)
         label = f"{name}, {n_components} components"
         return TabularBrdf(values.reshape(3, *library.grid.shape), library.grid, name=label)
 

@@ -26,7 +26,7 @@ from jaxtyping import Float64, Int
 from threadpoolctl import threadpool_limits
 
 from ..library import Streamed
-from ..tasks import THREADS, Engine, Track, silent
+from ..tasks import HERE, Work
 from .sums import join_channels, measured_pieces, sum_blocks
 
 N_PASSES = 2
@@ -52,8 +52,7 @@ def sketch(
     *,
     n_passes: int = N_PASSES,
     seed: int = 0,
-    track: Track = silent,
-    engine: Engine = THREADS,
+    work: Work = HERE,
 ) -> Sketch:
     """The first ``n_components`` eigenpairs of each channel, in ``n_passes`` over the library.
 
@@ -67,10 +66,10 @@ def sketch(
     tests = np.random.default_rng(seed).standard_normal((library.n_channels, n, n_vectors))
     for i in range(1, n_passes):
         label = f"Components, pass {i} of {n_passes}"
-        tests = _sum(library, _orthonormal(tests), label, track, engine).images
+        tests = _sum(library, _orthonormal(tests), label, work).images
     tests = _orthonormal(tests)
     label = f"Components, pass {n_passes} of {n_passes}"
-    total = _sum(library, tests, label, track, engine)
+    total = _sum(library, tests, label, work)
     pairs = [_nystrom(w, y) for w, y in zip(tests, total.images, strict=True)]
     values, vectors = (np.stack(part) for part in zip(*pairs, strict=True))
     k = n_components
@@ -91,9 +90,9 @@ class _Sum(NamedTuple):
     n_cells: Int[np.ndarray, " n_channels"]
 
 
-def _sum(library: Streamed, tests: np.ndarray, label: str, track: Track, engine: Engine) -> _Sum:
+def _sum(library: Streamed, tests: np.ndarray, label: str, work: Work) -> _Sum:
     block = partial(sketch_block, library, tests)
-    return sum_blocks(library, block, label=label, track=track, engine=engine)
+    return sum_blocks(library, block, label=label, work=work)
 
 
 def sketch_block(library: Streamed, tests: np.ndarray, columns: slice) -> _Sum:

@@ -8,7 +8,7 @@ from jaxtyping import Float64
 
 from ..errors import LibraryError
 from ..library import Streamed, columns_per_piece, ranges
-from ..tasks import Engine, Track, run
+from ..tasks import Work
 
 S = TypeVar("S", bound=tuple[np.ndarray, ...])
 """Arrays that add up; the last counts the cells of each channel."""
@@ -19,8 +19,7 @@ def sum_blocks(
     of_block: Callable[[slice], S],
     *,
     label: str,
-    track: Track,
-    engine: Engine,
+    work: Work,
 ) -> S:
     """What ``of_block`` finds on each block, added up in their order.
 
@@ -29,7 +28,7 @@ def sum_blocks(
     LibraryError
         When no cell is measured in every material.
     """
-    blocks = iter(run(of_block, library.blocks(), label=label, track=track, engine=engine))
+    blocks = iter(work.run(of_block, library.blocks(), label=label))
     total = next(blocks)
     for block in blocks:
         for whole, part in zip(total, block, strict=True):

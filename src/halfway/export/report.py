@@ -19,7 +19,7 @@ from ..library import Library
 from ..locations import Location
 from ..recipes import CHANNELS
 from ..space import SPACES, make_space
-from ..tasks import THREADS, Engine, Track, silent
+from ..tasks import HERE, Work
 from . import figures
 
 FORMAT = 1
@@ -94,20 +94,18 @@ def compare_spaces(
     *,
     n_pairs: int | None,
     seed: int = 0,
-    cache: Path | None = None,
-    track: Track = silent,
-    engine: Engine = THREADS,
+    work: Work = HERE,
 ) -> list[dict[str, Any]]:
     """Every space measured on the same pairs of materials (None: all), and leaving out each material in turn."""
-    bench = Bench.fit(library, cache=cache, track=track, engine=engine)
+    bench = Bench.fit(library, work=work)
     pairs = sample_pairs(len(library), n_pairs, seed=seed)
     places = {"paper": PaperPlace(pca), "anchored": AnchoredPlace(pca, bench.samples.body)}
     measured: list[dict[str, Any]] = []
     for name in SPACES:
-        space = make_space(name, library, cache=cache, track=track, engine=engine)
-        found = {"seed": seed} | evaluate(space, bench, pairs, track=track, engine=engine).to_json()
+        space = make_space(name, library, work=work)
+        found = {"seed": seed} | evaluate(space, bench, pairs, work=work).to_json()
         if name in places:
-            left = leave_one_out(name, places[name], bench, track=track, engine=engine).to_json()
+            left = leave_one_out(name, places[name], bench, work=work).to_json()
             found["leave_one_out"] = {key: value for key, value in left.items() if key != "space"}
         measured.append(found)
     return measured

@@ -28,7 +28,7 @@ from ..library import DESCRIPTION, Library
 from ..locations import Location, absolute, name_in
 from ..recipes import Mixer, Recipe
 from ..space import Route
-from ..tasks import THREADS, Engine, Track, run, silent
+from ..tasks import HERE, Work
 from . import zarr_tables
 
 FORMATS = ("none", "merl", "bsdf", "zarr")
@@ -52,8 +52,7 @@ def write_route(
     library: Library,
     *,
     format: str = "none",
-    track: Track = silent,
-    engine: Engine = THREADS,
+    work: Work = HERE,
 ) -> Written:
     """Write recipes.json, and with ``format`` a table for each t.
 
@@ -90,7 +89,7 @@ def write_route(
     }
     outputs: dict[str, Any] = {RECIPES: {"sha256": _sha256(text)}} | dict.fromkeys(tables.texts)
     outputs |= dict(zip(tables.names, document["recipes"], strict=False))
-    opened = Batch.open(folder, outputs, made=made, n_bytes=tables.n_bytes, track=track)
+    opened = Batch.open(folder, outputs, made=made, n_bytes=tables.n_bytes, work=work)
     with opened as batch:
         for name, content in ({RECIPES: text} | tables.texts).items():
             if name in batch.missing:
@@ -102,7 +101,7 @@ def write_route(
             if name in missing
         ]
         write = partial(_write_table, Mixer(library), tables.write)
-        written = run(write, tasks, label="Tables", track=track, engine=engine)
+        written = work.run(write, tasks, label="Tables")
         for (path, _), checksum in zip(tasks, written, strict=True):
             batch.add(name_in(folder, path), checksum)
     return Written(len(tasks), len(tables.names) - len(tasks))

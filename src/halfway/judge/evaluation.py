@@ -21,7 +21,6 @@ Pictures are those of `halfway.look.Looks`, table metrics those of `halfway.look
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
-from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -41,7 +40,7 @@ from ..look import (
     shown,
 )
 from ..space import Route, Space, perceptual
-from ..tasks import THREADS, Engine, Track, run, silent
+from ..tasks import HERE, Work
 
 N_STEPS = 41
 """Materials on the way of each pair, both ends included."""
@@ -83,15 +82,13 @@ class Bench:
         cls,
         library: Library,
         *,
-        cache: Path | None = None,
-        track: Track = silent,
-        engine: Engine = THREADS,
+        work: Work = HERE,
     ) -> "Bench":
-        """The bench of ``library``; a ``cache`` folder keeps it for the next time."""
+        """The bench of ``library``; kept in the cache for the next time."""
         return cls(
-            Looks.fit(library, PACING_SCENE, cache=cache, track=track, engine=engine),
-            Looks.fit(library, JUDGING_SCENE, cache=cache, track=track, engine=engine),
-            CellSamples.fit(library, cache=cache, track=track, engine=engine),
+            Looks.fit(library, PACING_SCENE, work=work),
+            Looks.fit(library, JUDGING_SCENE, work=work),
+            CellSamples.fit(library, work=work),
         )
 
 
@@ -136,16 +133,13 @@ def evaluate(
     pairs: Pairs,
     *,
     paces: Mapping[str, Pace] | None = None,
-    track: Track = silent,
-    engine: Engine = THREADS,
+    work: Work = HERE,
 ) -> Evaluation:
     """The measures of ``space`` on ``pairs``, with jumps at the uniform and the perceptual pace or at those given."""
     if paces is None:
         paces = {"uniform": uniform, "perceptual": partial(perceptual, images=bench.pacing)}
     measure = partial(_measure, space, bench, _Measured.of(bench), tuple(paces.values()))
-    rows = list(
-        run(measure, list(pairs), label=f"Evaluating {space.name}", track=track, engine=engine)
-    )
+    rows = list(work.run(measure, list(pairs), label=f"Evaluating {space.name}"))
     distance, detour, jumps, hue_excursion, realism, others = map(np.array, zip(*rows, strict=True))
     jump, cielab_jump, judged_jump = (
         dict(zip(paces, each, strict=True)) for each in jumps.transpose(2, 1, 0)

@@ -19,7 +19,7 @@ from ..components import Pca
 from ..errors import OutsideHullError
 from ..look import appearance, cielab_difference
 from ..space import DelaunayWalk, anchored_scale, nearest_in_hull
-from ..tasks import THREADS, Engine, Track, run, silent
+from ..tasks import HERE, Work
 from .evaluation import Bench
 
 Place = Callable[[int], Float64[np.ndarray, "3 N"]]
@@ -48,21 +48,11 @@ class LeaveOneOut:
         }
 
 
-def leave_one_out(
-    name: str, place: Place, bench: Bench, *, track: Track = silent, engine: Engine = THREADS
-) -> LeaveOneOut:
+def leave_one_out(name: str, place: Place, bench: Bench, *, work: Work = HERE) -> LeaveOneOut:
     """The errors of the space called ``name``, which places material i at ``place(i)``."""
     names = bench.samples.names
     measure = partial(_errors, place, bench)
-    rows = list(
-        run(
-            measure,
-            range(len(names)),
-            label=f"Leaving one out of {name}",
-            track=track,
-            engine=engine,
-        )
-    )
+    rows = list(work.run(measure, range(len(names)), label=f"Leaving one out of {name}"))
     return LeaveOneOut(name, names, {key: np.array([row[key] for row in rows]) for key in rows[0]})
 
 

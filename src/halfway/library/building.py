@@ -22,7 +22,7 @@ from ..files import lock, require_space, scratch_folder
 from ..formats import Credit, Found, Skipped, find_brdfs
 from ..halfdiff import MERL, Grid
 from ..locations import Location, RemotePath, to_location
-from ..tasks import THREADS, Engine, Track, run, silent
+from ..tasks import HERE, Work
 from .compact import SUFFIX as COMPACT_SUFFIX
 from .compact import CompactLibrary
 from .library import Origin
@@ -51,8 +51,7 @@ def build_library(
     *,
     origin: Origin | None = None,
     grid: Grid | None = None,
-    track: Track = silent,
-    engine: Engine = THREADS,
+    work: Work = HERE,
 ) -> Built:
     """Tabulate every BRDF found in ``sources`` (files, folders, zips, ``builtin:NAME``) into a library at ``path``.
 
@@ -78,7 +77,7 @@ def build_library(
     grid = _common_grid(found, grid)
     require_space(path.parent, 12 * len(found) * grid.size, f"a library of {len(found)} materials")
     with scratch_folder(path) as folder:
-        entries = _write_tables(folder / "tables.npy", found, grid, track, engine)
+        entries = _write_tables(folder / "tables.npy", found, grid, work)
         tables = tables_name(library_checksum(entries, grid), path)
         description = {
             "format": FORMAT,
@@ -200,10 +199,8 @@ def _common_origin(found: Sequence[Found]) -> Origin:
     return Origin(description, source, licence)
 
 
-def _write_tables(
-    path: Path, found: Sequence[Found], grid: Grid, track: Track, engine: Engine
-) -> list[Entry]:
-    rows = run(partial(_tabulate, grid), found, label="Tables", track=track, engine=engine)
+def _write_tables(path: Path, found: Sequence[Found], grid: Grid, work: Work) -> list[Entry]:
+    rows = work.run(partial(_tabulate, grid), found, label="Tables")
     with path.open("wb") as file:
         start = file.write(npy_header((3, len(found), grid.size)))
         file.truncate(start + 12 * len(found) * grid.size)

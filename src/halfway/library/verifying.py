@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from ..errors import HalfwayError, LibraryError
-from ..tasks import THREADS, Engine, Track, run, silent
+from ..tasks import HERE, Work
 from .building import find_materials
 from .compact import CompactLibrary
 from .library import Library
@@ -29,7 +29,7 @@ class Verdict(NamedTuple):
         return not self.damaged
 
 
-def verify_library(library: Library, *, track: Track = silent, engine: Engine = THREADS) -> Verdict:
+def verify_library(library: Library, *, work: Work = HERE) -> Verdict:
     """Read all samples of ``library`` again, and those of its sources that are still there.
 
     A compact library has one checksum, and is right as a whole.
@@ -47,9 +47,9 @@ def verify_library(library: Library, *, track: Track = silent, engine: Engine = 
             f"{library.name} is computed when asked for: expected a .brdflib folder or a .brdfc file, which may be damaged."
         )
     check = partial(_is_right, library)
-    right = list(run(check, range(len(library)), label="Samples", track=track, engine=engine))
+    right = list(work.run(check, range(len(library)), label="Samples"))
     sources = list(dict.fromkeys(filter(None, map(_file, library.entries))))
-    found = list(run(_checksums, sources, label="Sources", track=track, engine=engine))
+    found = list(work.run(_checksums, sources, label="Sources"))
     now = dict(zip(sources, found, strict=True))
     return Verdict(
         sum(right),

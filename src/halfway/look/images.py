@@ -9,15 +9,13 @@ Direct light is linear in the BRDF, so the picture of a recipe is the same weigh
 
 from dataclasses import dataclass
 from functools import partial
-from pathlib import Path
 
 import numpy as np
 from jaxtyping import Float, Float32
 
-from ..cache import cached
 from ..errors import LibraryError
 from ..library import Library
-from ..tasks import THREADS, Engine, Track, run, silent
+from ..tasks import HERE, Work
 from .appearance import appearance, cielab_difference
 from .lit_sphere import PACING_SCENE, SphereOperator, SphereScene
 
@@ -41,15 +39,11 @@ class Looks:
         library: Library,
         scene: SphereScene = PACING_SCENE,
         *,
-        cache: Path | None = None,
-        track: Track = silent,
-        engine: Engine = THREADS,
+        work: Work = HERE,
     ) -> "Looks":
-        """The pictures of ``library``; with a ``cache`` folder, kept there under the library's checksum."""
+        """The pictures of ``library``; kept in the cache under the library's checksum."""
         key = f"basis-1-{scene.fingerprint()}-{library.checksum}"
-        planes = cached(cache, key, lambda: {"planes": _planes(library, scene, track, engine)})[
-            "planes"
-        ]
+        planes = work.cached(key, lambda: {"planes": _planes(library, scene, work)})["planes"]
         planes.flags.writeable = False
         return cls(library.names, scene, planes)
 
@@ -104,12 +98,10 @@ def most_different(images: Looks, n: int) -> list[str]:
 
 
 def _planes(
-    library: Library, scene: SphereScene, track: Track, engine: Engine
+    library: Library, scene: SphereScene, work: Work
 ) -> Float32[np.ndarray, "3 N n_pixels"]:
     draw = partial(_draw, library, SphereOperator.of(scene, library.grid))
-    pictures = list(
-        run(draw, range(len(library)), label="Basis images", track=track, engine=engine)
-    )
+    pictures = list(work.run(draw, range(len(library)), label="Basis images"))
     return np.ascontiguousarray(np.moveaxis(np.stack(pictures), -1, 0))
 
 

@@ -18,7 +18,7 @@ from ..brdf import TabularBrdf
 from ..colour import to_srgb
 from ..halfdiff import Grid
 from ..library import Library
-from ..tasks import run
+from ..tasks import HERE
 from .lit_sphere import PACING_SCENE, SphereOperator, SphereScene
 
 PORTRAIT_SCENE = replace(PACING_SCENE, name="portrait", size=128, n_points=2)
@@ -44,7 +44,7 @@ def recipes_png(
     used = np.flatnonzero(weights.any(axis=(0, 1)))
     scene = PORTRAIT_SCENE if weights.shape[1] == 1 else STRIP_SCENE
     indices = [library.index(names[int(i)]) for i in used]
-    pictures = np.stack(list(run(partial(_picture, library, scene), indices)))
+    pictures = np.stack(list(HERE.run(partial(_picture, library, scene), indices)))
     mixed = np.einsum("ctn,npc->tpc", weights[..., used], pictures, optimize=True)
     return to_png(list(mixed.astype(np.float32)), scene)
 

@@ -12,7 +12,6 @@ highlight and away from grazing: a linear functional, so the body colour of a mi
 
 from dataclasses import dataclass
 from functools import partial
-from pathlib import Path
 from typing import Literal, NamedTuple
 
 import numpy as np
@@ -20,11 +19,10 @@ from jaxtyping import Float, Float32, Float64, Int
 
 from .._types import Mask
 from ..brdf import MAPPINGS, Metric, comparison_cells
-from ..cache import cached
 from ..errors import LibraryError
 from ..halfdiff import Grid
 from ..library import Library
-from ..tasks import THREADS, Engine, Track, run, silent
+from ..tasks import HERE, Work
 
 BODY_THETA_H_DEGREES = 25.0
 BODY_THETA_D_DEGREES = 50.0
@@ -57,11 +55,9 @@ class CellSamples:
         *,
         n_cells: int = N_CELLS,
         seed: int = 0,
-        cache: Path | None = None,
-        track: Track = silent,
-        engine: Engine = THREADS,
+        work: Work = HERE,
     ) -> "CellSamples":
-        """Samples of ``library`` on about ``n_cells`` cells; kept in a ``cache`` folder under its checksum.
+        """Samples of ``library`` on about ``n_cells`` cells; kept in the cache under its checksum.
 
         Raises
         ------
@@ -70,7 +66,7 @@ class CellSamples:
         """
         key = f"samples-1-{n_cells}-{seed}-{library.checksum}"
         drawn = _draw_cells(library.grid, n_cells, seed)
-        arrays = cached(cache, key, lambda: _read(library, drawn.cells, track, engine))
+        arrays = work.cached(key, lambda: _read(library, drawn.cells, work))
         values = arrays["values"]
         kept = ~np.isnan(values).any(axis=(0, 1))
         return cls(
@@ -121,11 +117,9 @@ def body_mask(grid: Grid) -> Mask:
 def body_colours(
     library: Library,
     *,
-    cache: Path | None = None,
-    track: Track = silent,
-    engine: Engine = THREADS,
+    work: Work = HERE,
 ) -> Float64[np.ndarray, "N 3"]:
-    """The body colours of all materials of ``library``, 1/sr; kept in a ``cache`` folder under its checksum.
+    """The body colours of all materials of ``library``, 1/sr; kept in the cache under its checksum.
 
     Raises
     ------
@@ -136,10 +130,10 @@ def body_colours(
     def read() -> dict[str, np.ndarray]:
         cells = np.flatnonzero(body_mask(library.grid))
         tasks, label = range(len(library)), "Body colours"
-        rows = run(partial(_body, library, cells), tasks, label=label, track=track, engine=engine)
+        rows = work.run(partial(_body, library, cells), tasks, label=label)
         return {"body": np.stack(list(rows))}
 
-    return cached(cache, f"body-1-{library.checksum}", read)["body"]
+    return work.cached(f"body-1-{library.checksum}", read)["body"]
 
 
 class _Drawn(NamedTuple):
@@ -169,10 +163,10 @@ def _shares(weights: Float64[np.ndarray, " n"]) -> Float64[np.ndarray, " n"]:
 
 
 def _read(
-    library: Library, cells: Int[np.ndarray, " n_cells"], track: Track, engine: Engine
+    library: Library, cells: Int[np.ndarray, " n_cells"], work: Work
 ) -> dict[str, np.ndarray]:
     read = partial(_read_one, library, cells, np.flatnonzero(body_mask(library.grid)))
-    rows = list(run(read, range(len(library)), label="Basis samples", track=track, engine=engine))
+    rows = list(work.run(read, range(len(library)), label="Basis samples"))
     values, body = zip(*rows, strict=True)
     return {"values": np.stack(values, axis=1), "body": np.stack(body)}
 

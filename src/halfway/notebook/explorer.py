@@ -19,10 +19,10 @@ from ..recipes import Recipe
 from ..server import PACES, Place, app_of, refresh
 from ..server import Explorer as Answers
 from ..space import SPACES, LinearSpace, Route
-from ..tasks import Track, silent
+from ..tasks import Work
 from .messages import Answerer
 
-USERS_CACHE = platformdirs.user_cache_path("halfway")
+WITH_CACHE = Work(cache=platformdirs.user_cache_path("halfway"))
 FAVOURITES = ("cherry-235", "gold-metallic-paint")
 """A pair that shows something, where the library has it."""
 
@@ -40,8 +40,8 @@ class Explorer(AnyWidget):
         Where on the route to begin, in [0, 1].
     space, pace : str
         As ``halfway route`` takes them.
-    cache : Path or None
-        Where to keep what is dear to work out; the folder of ``halfway view`` unless told otherwise.
+    work : Work
+        Where it keeps what is dear to work out: the cache folder of ``halfway view`` unless told otherwise.
 
     Attributes
     ----------
@@ -83,11 +83,10 @@ class Explorer(AnyWidget):
         t: float = 0.5,
         space: str = SPACES[0],
         pace: str = PACES[0],
-        cache: Path | None = USERS_CACHE,
-        track: Track = silent,
+        work: Work = WITH_CACHE,
     ) -> None:
         self.library = library if isinstance(library, Library) else open_library(library)
-        self._answers = Answers(self.library, cache=cache, track=track)
+        self._answers = Answers(self.library, work=work)
         self._route: Route | None = None
         place = {"space": space, "pace": pace, "stops": list(stops) or self._favourites(), "t": t}
         super().__init__(**place)

@@ -6,7 +6,6 @@ interpolation and our own space are measured on the same stops.
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 from jaxtyping import Float64
@@ -17,7 +16,7 @@ from ..judge import Bench, evaluate, uniform
 from ..library import Library
 from ..look import Looks, appearance, ciede2000_difference, cielab_difference
 from ..space import Route, Space, make_space
-from ..tasks import Track, silent
+from ..tasks import HERE, Work
 from .reported import FINE_TS, N_STEPS, RUNS, Run
 
 SPACES = ("paper", "linear", "anchored")
@@ -52,10 +51,8 @@ class Experiment:
     """By the number of the paper's figure; others stand in for materials that the library lacks."""
 
     @classmethod
-    def fit(
-        cls, library: Library, *, cache: Path | None = None, track: Track = silent
-    ) -> "Experiment":
-        """The experiment on ``library``; ``cache`` keeps what is dear to fit.
+    def fit(cls, library: Library, *, work: Work = HERE) -> "Experiment":
+        """The experiment on ``library``; what is dear to fit is kept in the cache.
 
         Raises
         ------
@@ -66,12 +63,12 @@ class Experiment:
             raise LibraryError(
                 f"{library.name} has {len(library)} materials: the paper's three runs need at least {LEAST_MATERIALS}."
             )
-        bench = Bench.fit(library, cache=cache, track=track)
+        bench = Bench.fit(library, work=work)
         return cls(
             library,
-            Pca.fit(library, cache=cache, track=track),
+            Pca.fit(library, work=work),
             bench,
-            {name: make_space(name, library, cache=cache, track=track) for name in SPACES},
+            {name: make_space(name, library, work=work) for name in SPACES},
             choose_stops(bench.pacing),
         )
 

@@ -18,7 +18,7 @@ from ..files import replacing
 from ..library import Library
 from ..recipes import Mixer
 from ..render import BasisPictures, Renderer, pictures
-from ..tasks import Track, silent
+from ..tasks import HERE, Work
 from .experiment import SPACES, Experiment, RunFound, largest_share_after, n_components_below
 from .reported import (
     FABRICS,
@@ -77,8 +77,7 @@ def reproduce(
     spp: int = 64,
     env: Path | None = None,
     mesh: Path | None = None,
-    cache: Path | None = None,
-    track: Track = silent,
+    work: Work = HERE,
 ) -> Reproduction:
     """Run everything and write it into ``folder``: pictures, ``page.md``, ``page.html`` and ``paper.json``.
 
@@ -100,13 +99,13 @@ def reproduce(
     """
     from .page import write_page
 
-    experiment = Experiment.fit(library, cache=cache, track=track)
+    experiment = Experiment.fit(library, work=work)
     shape = (size, round(size / 1.25))
     teapot = Renderer("teapot", size=shape, spp=spp, env=env)
-    basis = BasisPictures(teapot, library.brdf, cache=cache)
+    basis = BasisPictures(teapot, library.brdf, work=work)
     spheres = BasisPictures(Renderer("spheres", size=(size, size), spp=spp), library.brdf)
     trio = Renderer("trio", size=(2 * size, round(1.2 * size)), spp=spp, env=env, mesh=mesh)
-    draw = _Draw(folder, experiment, track)
+    draw = _Draw(folder, experiment, work)
 
     draw.plots()
     draw.figure(FABRICS, basis, columns=5)
@@ -139,10 +138,10 @@ def reproduce(
 class _Draw:
     """The pictures, one file each, named after the paper's figures."""
 
-    def __init__(self, folder: Path, experiment: Experiment, track: Track) -> None:
+    def __init__(self, folder: Path, experiment: Experiment, work: Work) -> None:
         self._folder = folder
         self._experiment = experiment
-        self._track = track
+        self._work = work
 
     def plots(self) -> None:
         """Figures 2 and 3."""
@@ -185,7 +184,7 @@ class _Draw:
         self, run: Run, space: str, ts: Sequence[float] | np.ndarray, basis: BasisPictures
     ) -> list[np.ndarray]:
         recipes = self._experiment.route(run, space).recipes(list(ts))
-        basis.render(sorted({n for recipe in recipes for n in recipe.names}), track=self._track)
+        basis.render(sorted({n for recipe in recipes for n in recipe.names}))
         return [basis.picture(recipe.names, recipe.weights) for recipe in recipes]
 
     def _write(self, name: str, image: np.ndarray) -> None:

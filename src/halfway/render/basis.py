@@ -11,15 +11,13 @@ so no frame flickers against the next.
 from collections import OrderedDict
 from collections.abc import Callable, Iterable, Sequence
 from hashlib import sha256
-from pathlib import Path
 
 import numpy as np
 
 from .._types import Weights
 from ..brdf import TabularBrdf
-from ..cache import cached
 from ..errors import RenderError
-from ..tasks import Track, silent
+from ..tasks import HERE, Work
 from .renderer import Renderer
 
 MEMORY = 512 * 2**20
@@ -35,8 +33,8 @@ class BasisPictures:
         Of a scene with direct light. If it denoises, pictures are near to what it would make of the mix, not equal.
     table : callable
         The table of a material, by name.
-    cache : path, optional
-        A folder that keeps the pictures between runs, by scene and material.
+    work : Work
+        Shows progress; its cache keeps the pictures between runs, by scene and material.
 
     Raises
     ------
@@ -54,7 +52,7 @@ class BasisPictures:
         renderer: Renderer,
         table: Callable[[str], TabularBrdf],
         *,
-        cache: Path | None = None,
+        work: Work = HERE,
     ) -> None:
         if not renderer.linear:
             raise RenderError(
@@ -63,15 +61,15 @@ class BasisPictures:
             )
         self._renderer = renderer
         self._table = table
-        self._cache = cache
+        self._work = work
         self._scene = renderer.fingerprint()
         self._pictures: OrderedDict[str, np.ndarray] = OrderedDict()
         self._room = max(1, MEMORY // (12 * renderer.size[0] * renderer.size[1]))
 
-    def render(self, names: Iterable[str], *, track: Track = silent) -> None:
+    def render(self, names: Iterable[str]) -> None:
         """Have the pictures of these materials ready: rendered, or read from the cache."""
         missing = [name for name in dict.fromkeys(names) if name not in self._pictures]
-        for name in track(missing, "Basis images", len(missing)):
+        for name in self._work.track(missing, "Basis images", len(missing)):
             self._basis(name)
 
     def picture(self, names: Sequence[str], weights: Weights) -> np.ndarray:
@@ -100,8 +98,7 @@ class BasisPictures:
     def _render(self, name: str) -> np.ndarray:
         table = self._table(name)
         material = sha256(f"{table.grid}".encode() + table.fingerprint()).hexdigest()[:32]
-        arrays = cached(
-            self._cache,
+        arrays = self._work.cached(
             f"picture-{self._scene}-{material}",
             lambda: {"planes": np.moveaxis(self._renderer.picture(table), -1, 0)},
         )

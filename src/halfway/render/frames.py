@@ -8,7 +8,7 @@ import numpy as np
 
 from ..batch import Batch, Checksum
 from ..errors import RenderError
-from ..tasks import Track, silent
+from ..tasks import HERE, Work
 from . import pictures
 from .renderer import Renderer
 
@@ -38,7 +38,7 @@ def write_frames(
     frames: Sequence[Frame],
     *,
     exposure: float = 0.0,
-    track: Track = silent,
+    work: Work = HERE,
 ) -> Written:
     """Write a file for each frame; a picture that an earlier run made of the same is kept.
 
@@ -64,9 +64,9 @@ def write_frames(
     }
     width, height = renderer.size
     outputs = {frame.name: frame.of for frame in frames}
-    opened = Batch.open(folder, outputs, made=made, n_bytes=12 * width * height, track=track)
+    opened = Batch.open(folder, outputs, made=made, n_bytes=12 * width * height, work=work)
     with opened as batch:
-        for name in track(batch.missing, "Pictures", len(batch.missing)):
+        for name in work.track(batch.missing, "Pictures", len(batch.missing)):
             pictures.write(folder / name, by_name[name].picture(), exposure=exposure)
             batch.add(name, Checksum.of(folder / name))
         return Written(len(batch.missing), batch.n_kept)

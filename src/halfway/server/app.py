@@ -16,7 +16,6 @@ Every mistake is answered as ``{"error": "one line"}``.
 
 from collections.abc import AsyncIterator, Iterable
 from importlib.metadata import version
-from pathlib import Path as FolderPath
 from threading import Thread
 from typing import Annotated, Any
 
@@ -27,7 +26,7 @@ from starlette.exceptions import HTTPException
 
 from ..errors import HalfwayError
 from ..library import Library
-from ..tasks import Track, silent
+from ..tasks import HERE, Work
 from .blocks import Block
 from .explorer import SUFFIXES, Explorer
 from .guard import LOOPBACK, Guard
@@ -47,8 +46,7 @@ def create_app(
     library: Library,
     *,
     page: Page | None = None,
-    cache: FolderPath | None = None,
-    track: Track = silent,
+    work: Work = HERE,
     hosts: Iterable[str] = LOOPBACK,
     warm: bool = False,
 ) -> FastAPI:
@@ -56,7 +54,7 @@ def create_app(
 
     Without a ``page`` it is the API alone. ``warm`` prepares, beside the first answers, what the first route would wait for.
     """
-    return app_of(Explorer(library, cache=cache, track=track), page=page, hosts=hosts, warm=warm)
+    return app_of(Explorer(library, work=work), page=page, hosts=hosts, warm=warm)
 
 
 def app_of(

@@ -6,6 +6,7 @@ space when it is first asked for. Tables are kept in bounded number.
 
 from collections import OrderedDict
 from collections.abc import Sequence
+from dataclasses import replace
 from importlib.metadata import version
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -32,7 +33,7 @@ from ..space import (
     nearest_in_hull,
     perceptual,
 )
-from ..tasks import Track, silent
+from ..tasks import HERE, Work, silent
 from .blocks import Block
 from .embedding import look_at
 from .schema import (
@@ -67,15 +68,13 @@ SUFFIXES = {"merl": ".binary", "bsdf": ".bsdf"}
 class Explorer:
     """Answers for one library."""
 
-    def __init__(
-        self, library: Library, *, cache: Path | None = None, track: Track = silent
-    ) -> None:
+    def __init__(self, library: Library, *, work: Work = HERE) -> None:
         self.library = library
-        self._cache = cache
-        self._pca = Pca.fit(library, cache=cache, track=track)
-        self.pictures = Looks.fit(library, cache=cache, track=track)
+        self._work = work
+        self._pca = Pca.fit(library, work=work)
+        self.pictures = Looks.fit(library, work=work)
         # The page opens with the first space; the others are made when they are asked for.
-        self._spaces = {SPACES[0]: make_space(SPACES[0], library, cache=cache, track=track)}
+        self._spaces = {SPACES[0]: make_space(SPACES[0], library, work=work)}
         self._making = Lock()
         self._tables: OrderedDict[str, Block] = OrderedDict()
         self._mixer = Mixer(library, n_rows=8)
@@ -141,7 +140,7 @@ class Explorer:
                 inside = bool(
                     np.abs((reached - point) / np.ptp(space.points, axis=0)).max() < INSIDE
                 )
-                return to_location(recipe, reached, inside=inside)
+                return _to_view(recipe, reached, inside=inside)
             case PaperSpace():
                 n_axes = space.triangulations[0].points.shape[1]
                 if point.size != 3 * n_axes:
@@ -213,21 +212,23 @@ class Explorer:
         """The space called ``name``, made when it is first asked for."""
         with self._making:
             if name not in self._spaces:
-                self._spaces[name] = make_space(name, self.library, cache=self._cache)
+                self._spaces[name] = make_space(
+                    name, self.library, work=replace(self._work, track=silent)
+                )
             return self._spaces[name]
 
 
 def _place_in_each_channel(space: PaperSpace, point: np.ndarray) -> PlaceView:
     """The material at a point (3, k) of the paper's space, or the nearest in the channels that are outside their hull."""
     try:
-        return to_location(space.recipe(point), point.ravel(), inside=True)
+        return _to_view(space.recipe(point), point.ravel(), inside=True)
     except OutsideHullError:
         nearest = np.stack(
             [_nearest(t, x) for t, x in zip(space.triangulations, point, strict=True)]
         )
     reached = np.stack([w @ t.points for w, t in zip(nearest, space.triangulations, strict=True)])
     recipe = Recipe.from_dense(space.library, space.names, nearest)
-    return to_location(recipe, reached.ravel(), inside=False)
+    return _to_view(recipe, reached.ravel(), inside=False)
 
 
 def _nearest(triangulation: Triangulation | DelaunayWalk, x: np.ndarray) -> np.ndarray:
@@ -239,7 +240,7 @@ def _nearest(triangulation: Triangulation | DelaunayWalk, x: np.ndarray) -> np.n
         return nearest_in_hull(triangulation.points / spread, x / spread)
 
 
-def to_location(recipe: Recipe, point: np.ndarray, *, inside: bool) -> PlaceView:
+def _to_view(recipe: Recipe, point: np.ndarray, *, inside: bool) -> PlaceView:
     """A place with its recipe."""
     document = RecipeDocument.model_validate(recipe.to_json())
     return PlaceView(recipe=document, point=point.tolist(), inside=inside)

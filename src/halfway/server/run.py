@@ -5,11 +5,10 @@ import sys
 import threading
 import webbrowser
 from contextlib import suppress
-from pathlib import Path
 
 from ..errors import HalfwayError
 from ..library import Library
-from ..tasks import Track, silent
+from ..tasks import HERE, Work
 from .page import Page
 
 PORT = 8765
@@ -20,8 +19,7 @@ def serve(
     *,
     port: int = PORT,
     open_browser: bool = True,
-    cache: Path | None = None,
-    track: Track = silent,
+    work: Work = HERE,
 ) -> None:
     """Show ``library`` in the browser; returns when interrupted.
 
@@ -43,7 +41,7 @@ def serve(
 
         from .app import create_app
 
-        app = create_app(library, page=page, cache=cache, track=track, warm=True)
+        app = create_app(library, page=page, work=work, warm=True)
         config = uvicorn.Config(
             app, log_level="warning", access_log=False, timeout_graceful_shutdown=1
         )

@@ -30,7 +30,7 @@ from ..files import replacing_folder
 from ..library import Library
 from ..look import Looks
 from ..space import SPACES, AnchoredSpace, PaperSpace, Route, Space, Triangulation, lengths
-from ..tasks import Track, run, silent
+from ..tasks import HERE, Work
 from .blocks import Block
 from .explorer import Explorer, to_view
 from .guard import META_POLICY
@@ -55,8 +55,7 @@ def export(
     folder: Path,
     page: Page,
     *,
-    cache: Path | None = None,
-    track: Track = silent,
+    work: Work = HERE,
 ) -> Exported:
     """Write the explorer of ``library`` into ``folder``, in place of an earlier one.
 
@@ -71,13 +70,13 @@ def export(
             f"{library.name} has {len(library)} materials: a folder takes at most {N_LARGEST}. "
             "Name some with --materials, or choose with -n."
         )
-    explorer = Explorer(library, cache=cache, track=track)
+    explorer = Explorer(library, work=work)
     with replacing_folder(folder) as temporary:
         files = _Files(temporary)
         _write_page(files, page)
-        _write_blocks(files, explorer, track)
+        _write_blocks(files, explorer, work)
         for name in SPACES:
-            _write_space(files, explorer, name, track)
+            _write_space(files, explorer, name, work)
         return Exported(files.n_files, files.n_bytes)
 
 
@@ -133,11 +132,11 @@ def _index(html: bytes) -> bytes:
     return html.replace(b"<head>", head.encode(), 1)
 
 
-def _write_blocks(files: _Files, explorer: Explorer, track: Track) -> None:
+def _write_blocks(files: _Files, explorer: Explorer, work: Work) -> None:
     names = explorer.library.names
     tables = [
         files.block(f"data/tables/{i}.bin", explorer.table(name))
-        for i, name in enumerate(track(names, "Tables", len(names)))
+        for i, name in enumerate(work.track(names, "Tables", len(names)))
     ]
     files.json(
         str(MARK),
@@ -150,7 +149,7 @@ def _write_blocks(files: _Files, explorer: Explorer, track: Track) -> None:
     )
 
 
-def _write_space(files: _Files, explorer: Explorer, name: str, track: Track) -> None:
+def _write_space(files: _Files, explorer: Explorer, name: str, work: Work) -> None:
     space = explorer.space(name)
     files.json(
         f"data/spaces/{name}.json",
@@ -160,7 +159,7 @@ def _write_space(files: _Files, explorer: Explorer, name: str, track: Track) -> 
         ),
     )
     pairs = list(combinations(range(len(space.names)), 2))
-    legs = run(partial(_leg, space, explorer.pictures), pairs, label=f"Ways, {name}", track=track)
+    legs = work.run(partial(_leg, space, explorer.pictures), pairs, label=f"Ways, {name}")
     for (i, j), leg in zip(pairs, legs, strict=True):
         files.json(f"data/legs/{name}/{i}-{j}.json", leg)
 

@@ -1,12 +1,10 @@
 """From a space's name to the space."""
 
-from pathlib import Path
-
 from ..components import Pca
 from ..errors import SpaceError
 from ..library import Library
 from ..look import Looks, body_colours
-from ..tasks import THREADS, Engine, Track, silent
+from ..tasks import HERE, Work
 from .anchored import DETOUR, AnchoredSpace
 from .spaces import LinearSpace, PaperSpace, Space
 
@@ -18,16 +16,14 @@ def anchored_space(
     *,
     n_components: int = 3,
     detour: float = DETOUR,
-    cache: Path | None = None,
-    track: Track = silent,
-    engine: Engine = THREADS,
+    work: Work = HERE,
 ) -> AnchoredSpace:
-    """The anchored space, fitted to ``library``; ``cache`` keeps what is dear to fit."""
+    """The anchored space, fitted to ``library``."""
     return AnchoredSpace.fit(
         library,
-        Pca.fit(library, cache=cache, track=track, engine=engine),
-        Looks.fit(library, cache=cache, track=track, engine=engine),
-        body_colours(library, cache=cache, track=track, engine=engine),
+        Pca.fit(library, work=work),
+        Looks.fit(library, work=work),
+        body_colours(library, work=work),
         n_components=n_components,
         detour=detour,
     )
@@ -39,11 +35,9 @@ def make_space(
     *,
     n_components: int = 3,
     detour: float = DETOUR,
-    cache: Path | None = None,
-    track: Track = silent,
-    engine: Engine = THREADS,
+    work: Work = HERE,
 ) -> Space:
-    """The space called ``name``, fitted to ``library``; ``cache`` keeps what is dear to fit.
+    """The space called ``name``, fitted to ``library``.
 
     Raises
     ------
@@ -56,14 +50,12 @@ def make_space(
                 library,
                 n_components=n_components,
                 detour=detour,
-                cache=cache,
-                track=track,
-                engine=engine,
+                work=work,
             )
         case "linear":
             return LinearSpace(library.name, library.names)
         case "paper":
-            pca = Pca.fit(library, cache=cache, track=track, engine=engine)
+            pca = Pca.fit(library, work=work)
             return PaperSpace.fit(library, pca, n_components=n_components)
         case _:
             raise SpaceError(f"there is no space {name!r}: expected one of {', '.join(SPACES)}.")
