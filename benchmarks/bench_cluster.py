@@ -60,7 +60,7 @@ def bench_pairs_on_a_cluster(figures, cluster: Cluster):
     """Pairs hold Python's lock for a part of their time: whether processes pay."""
     grid = Grid.merl(30, 30, 60)
     library = ProceduralLibrary("small", builtin("merl-abc").models, grid=grid)
-    bench, space = Bench.fit(library), LinearSpace(library.name, library.names)
+    bench, space = Bench.fit(library), LinearSpace.of(library)
     pairs = sample_pairs(len(library), 40)
     engines = (cluster, Threads())
     seconds = race(

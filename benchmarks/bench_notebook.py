@@ -23,5 +23,5 @@ def bench_showing_a_recipe(benchmark, library):
 
 def bench_showing_a_route(benchmark, library):
     """Through eight stops: as many materials as a route between two of them meets."""
-    space = LinearSpace(library.name, library.names)
+    space = LinearSpace.of(library)
     benchmark(Route.through(space, library.names[:8])._repr_png_)

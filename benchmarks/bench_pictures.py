@@ -15,12 +15,12 @@ def bench_frames(figures, library):
     basis = BasisPictures(renderer, library.brdf)
     mixer = Mixer(library)
     stops = ["light-brown-fabric", "blue-fabric", "gold-paint"]
-    route = Route.through(LinearSpace(library.name, library.names), stops)
+    route = Route.through(LinearSpace.of(library), stops)
     recipes = iter(route.recipes(np.linspace(0, 1, 12)))
     recipe = next(recipes)
     basis.render(stops)
     seconds = race(
-        lambda: basis.picture(recipe.names, recipe.weights),
+        lambda: basis.picture(recipe),
         lambda: renderer.picture(mixer.mix(next(recipes))),
         rounds=5,
     )

@@ -52,7 +52,7 @@ if what in ("route 3", "route 6"):
     cpu = time.process_time()
     for i in range(3):
         for walk in walks:
-            found["knots"] = len(walk.path(i, n // 2 + i).knots)
+            found["knots"] = len(walk.way(i, n // 2 + i).knots)
 if what == "samples":
     for block in library.blocks():
         library.columns(block)

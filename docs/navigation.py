@@ -13,7 +13,7 @@ from halfway.cli.console import cache_folder
 from halfway.export.figures import STYLE
 from halfway.judge import Bench, evaluate, sample_pairs
 from halfway.judge.evaluation import uniform
-from halfway.space import LinearSpace, PaperSpace, anchored_space
+from halfway.space import LinearSpace, PaperSpace, make_space
 from halfway.tasks import Work
 
 DETOURS = (1.0, 1.02, 1.05, 1.1, 1.2, 1.5, np.inf)
@@ -29,13 +29,15 @@ def main(where: str) -> None:
     cache = cache_folder()
     bench = Bench.fit(library, work=Work(cache=cache))
     spaces = {
-        f"anchored, {d:g}": anchored_space(library, detour=d, work=Work(cache=cache))
+        f"anchored, {d:g}": make_space("anchored", library, detour=d, work=Work(cache=cache))
         for d in DETOURS
     }
     for k in COMPONENTS:
-        made = anchored_space(library, n_components=k, detour=np.inf, work=Work(cache=cache))
+        made = make_space(
+            "anchored", library, n_components=k, detour=np.inf, work=Work(cache=cache)
+        )
         spaces[f"{k} scores and body colour, inf"] = made
-    spaces["linear"] = LinearSpace(library.name, library.names)
+    spaces["linear"] = LinearSpace.of(library)
     spaces["paper"] = PaperSpace.fit(library, Pca.fit(library, work=Work(cache=cache)))
     rows: dict[str, tuple[float, float]] = {}
     print(

@@ -26,7 +26,7 @@ def main() -> None:
     basis = BasisPictures(Renderer("teapot", size=(288, 240), spp=96, denoise=True), library.brdf)
 
     def row(route: Route) -> list[np.ndarray]:
-        return [basis.picture(r.names, r.weights) for r in route.recipes(route.steps(N_COLUMNS))]
+        return [basis.picture(r) for r in route.recipes(route.steps(N_COLUMNS))]
 
     ours = [perceptual(Route.through(spaces["anchored"], stops), images) for stops in ROUTES]
     tiles = [picture for route in ours for picture in row(route)]

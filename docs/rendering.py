@@ -93,7 +93,7 @@ def route(library: Library) -> None:
     start = time.perf_counter()
     basis.render(names)
     middle = time.perf_counter()
-    frames = [basis.picture(recipe.names, recipe.weights) for recipe in recipes]
+    frames = [basis.picture(recipe) for recipe in recipes]
     end = time.perf_counter()
     half = recipes[N_FRAMES // 2]
     full, again = (

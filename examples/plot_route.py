@@ -8,12 +8,11 @@ From brown cherry wood to dark tungsten carbide. The paper's space (above) passe
 import matplotlib.pyplot as plt
 import numpy as np
 
-from halfway import Route, open_library
+import halfway
 from halfway.look import Looks
 from halfway.render import pictures
-from halfway.space import make_space, perceptual
 
-library = open_library("builtin:merl-abc")
+library = halfway.open_library("builtin:merl-abc")
 images = Looks.fit(library)
 
 # %%
@@ -21,10 +20,8 @@ images = Looks.fit(library)
 
 frames = []
 for name in ("paper", "anchored"):
-    route = Route.through(make_space(name, library), ["cherry-235", "tungsten-carbide"])
-    route = perceptual(route, images)
-    weights = route.at(np.linspace(0, 1, 9))
-    frames += [images.picture(weights[:, i]) for i in range(9)]
+    route = halfway.route(library, "cherry-235", "tungsten-carbide", space=name)
+    frames += [images.picture(recipe) for recipe in route.recipes(np.linspace(0, 1, 9))]
 
 figure, ax = plt.subplots(figsize=(9, 2.2), layout="constrained")
 ax.imshow(pictures.sheet(frames, columns=9))

@@ -17,7 +17,7 @@ N = 40
 
 def main() -> None:
     library = open_library(sys.argv[1])
-    route = Route.through(LinearSpace(library.name, library.names), library.names[:3])
+    route = Route.through(LinearSpace.of(library), library.names[:3])
     mix(library, route.recipe(0.1))  # compiles
     print("ready", flush=True)
     for line in sys.stdin:

@@ -11,10 +11,11 @@ from numpy.testing import assert_allclose
 
 from halfway.brdf import TabularBrdf, directional_albedo, tabulate
 from halfway.halfdiff import Grid
-from halfway.library import ProceduralLibrary
+from halfway.library import LibraryRef, ProceduralLibrary
 from halfway.look import JUDGING_SCENE, PACING_SCENE, Looks, SphereOperator, SphereScene
 from halfway.look.lit_sphere import N_SKY_NODES, Light, Sky
 from halfway.models import AbcModel
+from halfway.recipes import Blend, Recipe
 from halfway.tasks import Work
 
 GRID = Grid.merl(20, 12, 24)
@@ -145,27 +146,27 @@ def test_the_picture_of_a_mix_is_the_mix_of_the_pictures(
     weights /= weights.sum(axis=1, keepdims=True)
     row = np.einsum("cn,ncp->cp", weights, np.stack([library.row(i) for i in range(4)]))
     picture = SphereOperator.of(SMALL, GRID).picture(row.astype(np.float32))
-    assert_allclose(images.mix(weights), picture, rtol=1e-5, atol=1e-6)
+    assert_allclose(images.mix(weights, Blend.LINEAR), picture, rtol=1e-5, atol=1e-6)
 
 
 def test_one_material_alone_is_its_own_picture(images: Looks):
     for i, alone in enumerate(np.eye(4)):
-        assert (images.mix(np.stack([alone] * 3)) == images.images[i]).all()
+        assert (images.mix(np.stack([alone] * 3), Blend.LINEAR) == images.images[i]).all()
 
 
 def test_mixing_keeps_the_axes_between(images: Looks):
     weights = np.random.default_rng(1).dirichlet(np.ones(4), (3, 5, 2))
-    together = images.mix(weights)
+    together = images.mix(weights, Blend.LINEAR)
     assert together.shape == (5, 2, images.planes.shape[-1], 3)
-    assert_allclose(together[3, 1], images.mix(weights[:, 3, 1]), rtol=1e-6)
+    assert_allclose(together[3, 1], images.mix(weights[:, 3, 1], Blend.LINEAR), rtol=1e-6)
 
 
 def test_a_picture_is_square_and_black_beside_the_sphere(images: Looks):
     weights = np.full((3, 4), 0.25)
-    picture = images.picture(weights)
+    picture = images.picture(Recipe(LibraryRef("x"), images.names, weights))
     mask = SMALL.mask()
     assert picture.shape == (8, 8, 3)
-    assert (picture[mask] == images.mix(weights)).all()
+    assert (picture[mask] == images.mix(weights, Blend.LINEAR)).all()
     assert not picture[~mask].any()
 
 

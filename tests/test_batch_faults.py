@@ -42,7 +42,7 @@ def library(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def route(library):
-    return Route.through(LinearSpace(library.name, library.names), library.names)
+    return Route.through(LinearSpace.of(library), library.names)
 
 
 @pytest.fixture(scope="module")

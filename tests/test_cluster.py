@@ -17,9 +17,10 @@ from halfway import Recipe, Route, build_library
 from halfway.cluster import Cluster
 from halfway.components import Pca
 from halfway.errors import ClusterError, FormatError, LibraryError, MissingExtraError
-from halfway.export import compare_spaces, write_route
+from halfway.export import write_route
 from halfway.formats import write_merl
 from halfway.halfdiff import Grid
+from halfway.judge import compare_spaces
 from halfway.library import StoredLibrary, verify_library
 from halfway.look import CellSamples, Looks
 from halfway.recipes import Mixer
@@ -109,7 +110,7 @@ def test_components_pictures_and_samples_are_the_same_bytes(cluster, library):
 
 
 def test_tables_of_a_route_are_the_same_bytes(cluster, library, tmp_path):
-    route = Route.through(LinearSpace(library.name, library.names), library.names[:3])
+    route = Route.through(LinearSpace.of(library), library.names[:3])
     ts = np.linspace(0, 1, 7).tolist()
     write_route(tmp_path / "here", route, ts, library, format="merl")
     write_route(tmp_path / "there", route, ts, library, format="merl", work=Work(engine=cluster))
@@ -118,9 +119,8 @@ def test_tables_of_a_route_are_the_same_bytes(cluster, library, tmp_path):
 
 
 def test_spaces_measure_the_same(cluster, library):
-    pca = Pca.fit(library)
     here, there = (
-        compare_spaces(library, pca, n_pairs=3, work=Work(engine=engine))
+        compare_spaces(library, n_pairs=3, work=Work(engine=engine))
         for engine in (Threads(), cluster)
     )
     assert here == there
@@ -153,7 +153,7 @@ def test_components_are_the_same_bytes_when_a_worker_is_killed(
 
 
 def test_tables_are_the_same_bytes_when_a_worker_is_killed(cluster, library, kill_one, tmp_path):
-    route = Route.through(LinearSpace(library.name, library.names), library.names[:3])
+    route = Route.through(LinearSpace.of(library), library.names[:3])
     ts = np.linspace(0, 1, 24).tolist()
     write_route(tmp_path / "here", route, ts, library, format="merl")
     write_route(

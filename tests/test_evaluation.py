@@ -17,15 +17,25 @@ from halfway.errors import LibraryError
 from halfway.formats import read_nbrdf_archive
 from halfway.halfdiff import Grid
 from halfway.judge.evaluation import N_STEPS, Bench, evaluate, sample_pairs, uniform
-from halfway.judge.leave_one_out import PaperPlace, _project, hull_weights, leave_one_out
-from halfway.library import ProceduralLibrary
+from halfway.judge.leave_one_out import leave_one_out
+from halfway.library import LibraryRef, ProceduralLibrary
 from halfway.look import JUDGING_SCENE, PACING_SCENE, CellSamples, Looks, body_colours
 from halfway.look.appearance import appearance, cielab_difference, to_lab
 from halfway.look.samples import body_mask
 from halfway.models import AbcModel
-from halfway.space import LinearSpace, PaperSpace, Space, Triangulation
+from halfway.recipes import Blend
+from halfway.space import (
+    Coordinates,
+    LinearSpace,
+    Numbers,
+    PaperSpace,
+    Scores,
+    Space,
+    Triangulation,
+    Way,
+)
+from halfway.space.chart import Chart
 from halfway.space.hull import nearest_in_hull
-from halfway.space.spaces import Leg
 from halfway.tasks import Work
 
 GRID = Grid.merl(10, 8, 12)
@@ -62,14 +72,12 @@ def bench_of(library: ProceduralLibrary, *, size: int = 8, n_cells: int = 400) -
 class Via(Space):
     """Goes from every material to every other through one of them, at t = 1/2."""
 
-    name: str
-    library: str
-    names: tuple[str, ...]
     middle: int
+    name = "via"
 
-    def leg(self, start: int, stop: int) -> Leg:
+    def leg(self, start: int, stop: int) -> Way:
         weights = np.eye(len(self.names))[[start, self.middle, stop]]
-        return Leg(np.array([0.0, 0.5, 1.0]), np.stack([weights] * 3))
+        return Way(np.array([0.0, 0.5, 1.0]), np.stack([weights] * 3))
 
 
 @pytest.fixture(scope="module")
@@ -84,11 +92,11 @@ def bench(library: ProceduralLibrary) -> Bench:
 
 @pytest.fixture(scope="module")
 def linear(library: ProceduralLibrary) -> LinearSpace:
-    return LinearSpace(library.name, library.names)
+    return LinearSpace.of(library)
 
 
 def via(name: str) -> Via:
-    return Via(f"via {name}", "matte", NAMES, NAMES.index(name))
+    return Via(LibraryRef("matte"), NAMES, (), NAMES.index(name))
 
 
 def seen(bench: Bench, name: str) -> np.ndarray:
@@ -133,8 +141,7 @@ def test_one_step_that_goes_all_the_way_is_n_minus_1_times_the_mean(
         "uniform": uniform,
         "leap": lambda route: dataclasses.replace(
             route,
-            knots=np.array([0.0, 1 - 1 / (N_STEPS - 1), 1.0]),
-            weights=route.weights[:, [0, 0, -1]],
+            way=Way(np.array([0.0, 1 - 1 / (N_STEPS - 1), 1.0]), route.way.weights[:, [0, 0, -1]]),
         ),
     }
     evaluation = evaluate(linear, bench, PAIRS, paces=paces)
@@ -205,7 +212,7 @@ def test_the_body_colour_of_a_mix_is_the_mean_of_its_table(
     weights = np.random.default_rng(1).dirichlet(np.ones(6), 3)
     row = np.einsum("cn,ncp->cp", weights, np.stack([library.row(i) for i in range(6)]))
     expected = row[:, body_mask(GRID).ravel()].mean(axis=1)
-    assert_allclose(bench.samples.body_colour(weights), expected, rtol=1e-6)
+    assert_allclose(bench.samples.body_colour(weights, Blend.LINEAR), expected, rtol=1e-6)
 
 
 def test_body_colours_are_seen_beside_the_highlight_and_away_from_grazing():
@@ -248,7 +255,8 @@ def test_a_material_among_others_is_found_again_without_it():
         {"red": three[0], "blue": three[1], "white": three[2], "mix": three.mean(0)}
     )
     with pytest.warns(UserWarning, match="extend in 1 of 2 dimensions"):
-        errors = leave_one_out("paper", PaperPlace(Pca.fit(library), 2), bench_of(library))
+        space = PaperSpace.fit(library, Pca.fit(library), n_components=2)
+    errors = leave_one_out(space, bench_of(library))
     assert errors.errors["log"][3] < 1e-4
     assert errors.errors["seen"][3] < 0.01
     assert (errors.errors["seen"][:3] > 1).all()
@@ -259,9 +267,8 @@ def test_the_scores_without_a_material_are_those_of_the_library_without_it(
     small_library: ProceduralLibrary,
 ):
     pca = Pca.fit(small_library)
-    gram = (pca.eigenvectors[1] * pca.eigenvalues[1]) @ pca.eigenvectors[1].T
     others = np.delete(np.arange(9), 4)
-    placed = _project(gram, 4, others, 3)
+    placed = Scores.of_channel(pca, 3, 1).without(4)
     brdfs = {name: small_library.brdf(name) for i, name in enumerate(small_library.names) if i != 4}
     alone = Pca.fit(ProceduralLibrary("eight", brdfs, grid=small_library.grid)).scores(3)[1]
     assert_allclose(np.abs(placed.others), np.abs(alone), rtol=1e-6)
@@ -274,8 +281,12 @@ def test_the_scores_without_a_material_are_those_of_the_library_without_it(
 
 def test_inside_the_hull_weights_are_those_of_the_triangulation():
     points = np.random.default_rng(2).standard_normal((20, 3))
-    x = points.mean(axis=0)
-    assert_allclose(hull_weights(points, x), Triangulation.of(points).weights(x), atol=1e-9)
+    points[7] = np.delete(points, 7, axis=0).mean(axis=0)
+    others = np.delete(points, 7, axis=0)
+    numbers = Numbers(label="numbers", names=("a", "b", "c"), points=points)
+    weights = Chart.of(Coordinates((numbers,))).without(7)
+    assert weights[7] == 0
+    assert_allclose(np.delete(weights, 7), Triangulation.of(others).weights(points[7]), atol=1e-9)
 
 
 @given(st.integers(0, 2**32 - 1), st.integers(1, 5))
@@ -299,9 +310,7 @@ def test_the_papers_space_wanders_where_plain_mixing_does_not(shared_data):
     paper = evaluate(
         PaperSpace.fit(coarse, Pca.fit(coarse)), bench, pairs, paces={"uniform": uniform}
     ).to_json()
-    linear = evaluate(
-        LinearSpace(coarse.name, coarse.names), bench, pairs, paces={"uniform": uniform}
-    ).to_json()
+    linear = evaluate(LinearSpace.of(coarse), bench, pairs, paces={"uniform": uniform}).to_json()
     assert 2.5 < paper["detour"]["median"] < 6
     assert 3 < paper["cielab_jump"]["uniform"]["median"] < 7
     assert paper["hue_excursion"]["median"] > 15

@@ -15,7 +15,7 @@ from halfway.library import ProceduralLibrary
 
 @pytest.fixture
 def route(small_library):
-    return Route.through(LinearSpace("small", small_library.names), ["material-0", "material-1"])
+    return Route.through(LinearSpace.of(small_library), ["material-0", "material-1"])
 
 
 def test_the_folder_holds_the_recipes_and_the_tables(route, small_library, tmp_path):
@@ -61,7 +61,7 @@ def test_what_is_finished_is_kept_and_what_is_cut_is_written_again(route, small_
 
 def test_another_route_in_the_same_folder_keeps_no_stale_table(route, small_library, tmp_path):
     write_route(tmp_path, route, route.steps(5), small_library, format="merl")
-    other = Route.through(LinearSpace("small", small_library.names), ["material-2", "material-3"])
+    other = Route.through(LinearSpace.of(small_library), ["material-2", "material-3"])
     assert write_route(tmp_path, other, other.steps(3), small_library, format="merl") == (3, 0)
     assert not (tmp_path / "004.binary").exists()
     assert_allclose(
@@ -75,7 +75,7 @@ def test_a_library_that_moved_keeps_the_tables(small_library, tmp_path):
     for name in small_library.names[:2]:
         write_merl(tmp_path / "measured" / f"{name}.binary", small_library.brdf(name))
     library = build_library([tmp_path / "measured"], tmp_path / "here" / "some.brdflib").library
-    route = Route.through(LinearSpace("some", library.names), library.names)
+    route = Route.through(LinearSpace.of(library), library.names)
     write_route(tmp_path / "route", route, route.steps(4), library, format="merl")
     (tmp_path / "here").rename(tmp_path / "there")
     moved = open_library(tmp_path / "there" / "some.brdflib")
@@ -100,7 +100,7 @@ def test_a_zarr_store_holds_the_tables_in_half_precision(small_library, tmp_path
         for name in small_library.names[:2]
     }
     library = ProceduralLibrary("bright", bright, grid=small_library.grid)
-    route = Route.through(LinearSpace("bright", library.names), library.names)
+    route = Route.through(LinearSpace.of(library), library.names)
     write_route(tmp_path, route, route.steps(3), library, format="zarr")
     tables = zarr.open_array(str(tmp_path / "tables.zarr"), mode="r")
     scale = tables.attrs["scale"]

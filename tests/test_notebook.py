@@ -19,7 +19,7 @@ from halfway.notebook import Explorer
 from halfway.notebook.messages import Answerer
 from halfway.server.app import app_of
 from halfway.server.explorer import Explorer as Answers
-from halfway.server.schema import Place
+from halfway.server.schema import Point
 from halfway.tasks import Work
 
 EXAMPLE = Path(__file__).parents[1] / "examples" / "explore.ipynb"
@@ -54,7 +54,7 @@ def test_at_a_free_place_the_recipe_is_that_of_the_space(
     explorer.space = "anchored"
     middle = answers.space("anchored").points.mean(axis=0).tolist()  # pyright: ignore
     explorer.point = middle
-    place = answers.place(Place(space="anchored", point=middle))
+    place = answers.position(Point(space="anchored", point=middle))
     assert explorer.recipe.to_json() == place.recipe.model_dump()
     # Along the route again.
     explorer.t = 0.0
@@ -89,7 +89,7 @@ def test_a_place_that_is_none_is_refused(
         ("GET", "api/tables/unobtainium", None),
         ("GET", "api/route?space=linear&pace=uniform&stop=material-0&stop=material-1", None),
         ("POST", "api/export/merl", {"library": "small", "weights": {"material-1": 1.0}}),
-        ("POST", "api/place", {"space": "linear", "point": [0.0]}),
+        ("POST", "api/position", {"space": "linear", "point": [0.0]}),
         ("GET", "../../etc/passwd", None),
     ],
 )

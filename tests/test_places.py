@@ -155,7 +155,7 @@ def test_a_remote_build_that_stops_leaves_the_old_library(bucket, folder, monkey
 
 def test_a_remote_route_is_resumed_and_verified(bucket, folder, tmp_path):
     library = build_library([folder], tmp_path / "x.brdflib").library
-    route = Route.through(LinearSpace(library.name, library.names), library.names[:2])
+    route = Route.through(LinearSpace.of(library), library.names[:2])
     place, ts = bucket / "route", np.linspace(0, 1, 4).tolist()
     assert write_route(place, route, ts, library, format="merl") == (4, 0)
     (place / "001.binary").unlink()

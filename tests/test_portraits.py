@@ -60,16 +60,16 @@ def test_a_portrait_of_white_is_the_irradiance_of_the_scene() -> None:
 def test_a_recipe_is_the_mix_of_its_materials_portraits(library: ProceduralLibrary) -> None:
     recipe = Recipe.of(library.name, {"red": 0.25, "green": 0.75})
     mixed = matte(tuple(0.25 * np.array([0.8, 0.02, 0.02]) + 0.75 * np.array([0.02, 0.5, 0.02])))
-    shown = recipes_png(library, recipe.names, recipe.weights[:, None])
+    shown = recipes_png(library, recipe.names, recipe.weights[:, None], recipe.blend)
     assert_allclose(pixels(shown), pixels(table_png(mixed)), atol=1)
 
 
 def test_a_route_is_a_row_of_spheres_from_its_first_stop_to_its_last(
     library: ProceduralLibrary,
 ) -> None:
-    route = Route.through(LinearSpace(library.name, library.names), ["red", "green"])
+    route = Route.through(LinearSpace.of(library), ["red", "green"])
     weights = route.at(np.linspace(0, 1, N_SPHERES))
-    row = pixels(recipes_png(library, route.names, weights))
+    row = pixels(recipes_png(library, route.names, weights, route.blend))
     size = STRIP_SCENE.size
     assert row.shape == (size, N_SPHERES * size + (N_SPHERES - 1) * GAP, 4)
     middles = row[size // 2, size // 2 :: size + GAP, :3]
@@ -97,7 +97,7 @@ assert formats["image/png"].startswith(b"\\x89PNG"), formats
 
 
 def test_a_route_says_where_it_goes(library: ProceduralLibrary) -> None:
-    route = Route.through(LinearSpace(library.name, library.names), ["red", "green", "white"])
+    route = Route.through(LinearSpace.of(library), ["red", "green", "white"])
     assert repr(route) == "Route(red to green to white, linear, uniform pace, 'crayons')"
 
 

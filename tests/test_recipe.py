@@ -34,7 +34,7 @@ def test_per_channel():
 def test_json_round_trip(r, g, b):
     recipe = Recipe.from_dense("lib", NAMES, np.stack([r, g, b]))
     back = Recipe.from_json(json.loads(json.dumps(recipe.to_json())))
-    assert back.library == "lib"
+    assert back.library.name == "lib"
     for name, column in zip(back.names, back.weights.T, strict=True):
         assert_allclose(column, recipe.weights[:, recipe.names.index(name)], rtol=1e-12)
 

@@ -7,6 +7,8 @@ from numpy.testing import assert_allclose, assert_array_equal
 from halfway.brdf import TabularBrdf
 from halfway.errors import RenderError
 from halfway.halfdiff import Grid
+from halfway.library import LibraryRef
+from halfway.recipes import Recipe
 from halfway.render import BasisPictures, Renderer
 from halfway.tasks import Work
 
@@ -20,6 +22,10 @@ NAMES = tuple(TABLES)
 WEIGHTS = np.array([[0.2, 0.8, 0.0], [1.0, 0.0, 0.0], [0.3, 0.3, 0.4]])
 
 
+def recipe(weights: np.ndarray) -> Recipe:
+    return Recipe(LibraryRef("three"), NAMES, weights)
+
+
 @pytest.fixture(scope="module")
 def renderer() -> Renderer:
     return Renderer("teapot", size=(40, 32), spp=64)
@@ -28,7 +34,7 @@ def renderer() -> Renderer:
 def test_a_recipe_of_one_material_is_its_picture(renderer):
     basis = BasisPictures(renderer, TABLES.__getitem__)
     alone = np.array([[0.0, 1.0, 0.0]] * 3)
-    assert_allclose(basis.picture(NAMES, alone), renderer.picture(TABLES["light"]), rtol=1e-6)
+    assert_allclose(basis.picture(recipe(alone)), renderer.picture(TABLES["light"]), rtol=1e-6)
 
 
 def test_the_picture_of_a_recipe_is_that_of_its_mix(renderer):
@@ -39,7 +45,7 @@ def test_the_picture_of_a_recipe_is_that_of_its_mix(renderer):
         for i, name in enumerate(NAMES)
     )
     full = renderer.picture(TabularBrdf(mixed, GRID))
-    got = basis.picture(NAMES, WEIGHTS)
+    got = basis.picture(recipe(WEIGHTS))
     assert got.dtype == np.float32
     assert_allclose(got.mean(axis=(0, 1)), full.mean(axis=(0, 1)), rtol=0.005)
     assert np.abs(got - full).mean() < 0.02 * full.mean()
@@ -55,18 +61,18 @@ def test_each_material_is_rendered_once(renderer):
     basis = BasisPictures(renderer, table)
     basis.render(NAMES)
     for t in np.linspace(0, 1, 5):
-        basis.picture(NAMES, (1 - t) * WEIGHTS + t * WEIGHTS[[1, 2, 0]])
+        basis.picture(recipe((1 - t) * WEIGHTS + t * WEIGHTS[[1, 2, 0]]))
     assert asked == list(NAMES)
 
 
 def test_pictures_are_kept_between_runs_by_scene_and_material(renderer, tmp_path):
     first = BasisPictures(renderer, TABLES.__getitem__, work=Work(cache=tmp_path)).picture(
-        NAMES, WEIGHTS
+        recipe(WEIGHTS)
     )
     kept = {path: path.stat().st_ino for path in tmp_path.iterdir()}
     assert len(kept) == len(NAMES)
     again = BasisPictures(renderer, TABLES.__getitem__, work=Work(cache=tmp_path)).picture(
-        NAMES, WEIGHTS
+        recipe(WEIGHTS)
     )
     assert_array_equal(again, first)
     assert {path: path.stat().st_ino for path in tmp_path.iterdir()} == kept

@@ -52,7 +52,7 @@ def test_recipes_are_convex_and_continuous(space, ts):
     weights = route.at(np.array(ts))
     assert weights.min() >= 0
     assert_allclose(weights.sum(axis=-1), 1, atol=1e-12)
-    steepest = abs(np.diff(route.weights, axis=1) / np.diff(route.knots)[:, None]).max()
+    steepest = abs(np.diff(route.way.weights, axis=1) / np.diff(route.way.knots)[:, None]).max()
     moved = abs(route.at(np.array(ts) * (1 - 1e-6)) - weights).max()
     assert moved <= 1.01e-6 * steepest + 1e-12
 
@@ -64,14 +64,14 @@ def test_several_stops_are_reached_in_turn(space):
 
 
 def test_linear_is_the_two_ends_in_proportion(small_library):
-    linear = LinearSpace(small_library.name, small_library.names)
+    linear = LinearSpace.of(small_library)
     recipe = Route.through(linear, ["material-4", "material-6"]).recipe(0.25)
     assert recipe.to_json()["weights"] == {"material-4": 0.75, "material-6": 0.25}
 
 
 def test_a_free_point_is_located_in_each_channel(space, pca):
     point = pca.scores(3)[:, :4].mean(axis=1)
-    recipe = space.recipe(point)
+    recipe = space.at(point).recipe
     dense = np.zeros((3, 9))
     dense[:, [space.names.index(name) for name in recipe.names]] = recipe.weights
     assert_allclose(
@@ -81,7 +81,7 @@ def test_a_free_point_is_located_in_each_channel(space, pca):
 
 def test_a_point_far_away_is_refused(space, pca):
     with pytest.raises(OutsideHullError):
-        space.recipe(100 * pca.scores(3)[:, 0])
+        space.at(100 * pca.scores(3)[:, 0])
 
 
 @pytest.mark.parametrize("k", [2, 3, 4, 5, 6])

@@ -105,9 +105,9 @@ def test_a_route_is_that_of_the_package(
     ).json()
     route = Route.through(make_space("paper", small_library), stops)
     used = [small_library.names.index(name) for name in view["names"]]
-    assert_allclose(view["knots"], route.knots, rtol=0, atol=0)
+    assert_allclose(view["knots"], route.way.knots, rtol=0, atol=0)
     for c, channel in enumerate("rgb"):
-        assert_array_equal(view["weights"][channel], route.weights[c][:, used])
+        assert_array_equal(view["weights"][channel], route.way.weights[c][:, used])
     assert view["stop_t"] == [0, 0.5, 1]
 
 
@@ -135,7 +135,7 @@ def test_the_place_of_a_material_is_that_material(client: TestClient) -> None:
     for space in ("anchored", "paper"):
         embeddings = client.get(f"/api/spaces/{space}").json()["embeddings"]
         point = [x for embedding in embeddings for x in embedding["points"][4]]
-        view = client.post("/api/place", json={"space": space, "point": point}).json()
+        view = client.post("/api/position", json={"space": space, "point": point}).json()
         assert view["recipe"]["weights"] == {"material-4": 1.0}
         assert view["inside"]
         assert_allclose(view["point"], point)
@@ -144,7 +144,7 @@ def test_the_place_of_a_material_is_that_material(client: TestClient) -> None:
 def test_a_place_outside_is_answered_by_the_nearest_mix(client: TestClient) -> None:
     embeddings = client.get("/api/spaces/anchored").json()["embeddings"]
     point = [100 * x + 1 for embedding in embeddings for x in embedding["points"][0]]
-    view = client.post("/api/place", json={"space": "anchored", "point": point}).json()
+    view = client.post("/api/position", json={"space": "anchored", "point": point}).json()
     assert not view["inside"]
     assert sum(view["recipe"]["weights"].values()) == pytest.approx(1)
 
@@ -155,7 +155,7 @@ def test_outside_the_paper_s_hulls_each_channel_takes_its_nearest_mix(
     embeddings = client.get("/api/spaces/paper").json()["embeddings"]
     corner = [np.array(embedding["points"])[4] for embedding in embeddings]
     asked = [*corner[0], *corner[1], *(corner[2] + 1e3)]
-    found = client.post("/api/place", json={"space": "paper", "point": asked}).json()
+    found = client.post("/api/position", json={"space": "paper", "point": asked}).json()
     assert not found["inside"]
     weights = found["recipe"]["weights"]
     assert weights["r"] == {"material-4": 1.0}
@@ -169,7 +169,7 @@ def test_outside_the_paper_s_hulls_each_channel_takes_its_nearest_mix(
 
 
 def test_the_linear_space_has_no_places(client: TestClient) -> None:
-    answer = client.post("/api/place", json={"space": "linear", "point": [0, 0, 0]})
+    answer = client.post("/api/position", json={"space": "linear", "point": [0, 0, 0]})
     assert answer.status_code == 400
 
 

@@ -13,7 +13,6 @@ from strategies import convex_weights, points
 from halfway.components import Pca
 from halfway.errors import DegenerateSpaceWarning, OutsideHullError
 from halfway.space import DelaunayWalk, PaperSpace, Triangulation
-from halfway.space.spaces import interpolate
 
 SQUARE = np.array([[0.0, 0], [2, 0], [2, 2], [0, 2], [1, 1]])
 """A square and its centre: four triangles."""
@@ -26,7 +25,7 @@ def quietly(x: np.ndarray) -> Triangulation:
 
 
 def at(path, t):
-    return interpolate(np.atleast_1d(np.asarray(t, float)), path.knots, path.weights)
+    return path.at(np.atleast_1d(np.asarray(t, float)))
 
 
 def test_the_weights_of_a_point_by_hand():
@@ -37,7 +36,7 @@ def test_the_weights_of_a_point_by_hand():
 
 
 def test_a_line_between_corners_of_the_square_passes_its_centre():
-    path = Triangulation.of(SQUARE).path(0, 2)
+    path = Triangulation.of(SQUARE).way(0, 2)
     assert_allclose(at(path, 0.5), [[0, 0, 0, 0, 1]], atol=1e-12)
     assert_allclose(at(path, 0.25), [[0.5, 0, 0, 0, 0.5]], atol=1e-12)
 
@@ -45,7 +44,7 @@ def test_a_line_between_corners_of_the_square_passes_its_centre():
 def test_crossings_by_hand():
     """From (0, 0) to (4, 1) over the edge from (1, 1) to (2, -1): the line y = x/4 meets y = 3 - 2x at x = 4/3."""
     x = np.array([[0.0, 0], [1, 1], [2, -1], [4, 1]])
-    path = Triangulation.of(x).path(0, 3)
+    path = Triangulation.of(x).way(0, 3)
     assert_allclose(path.knots, [0, 1 / 3, 1], atol=1e-12)
     assert_allclose(path.weights[1], [0, 2 / 3, 1 / 3, 0], atol=1e-12)
 
@@ -76,7 +75,7 @@ def test_weights_are_convex_and_give_the_point(drawn):
 
 @given(st.integers(1, 4).flatmap(lambda k: points(10, k)), st.integers(0, 9), st.integers(0, 9))
 def test_a_path_is_convex_exact_at_its_ends_and_on_the_line(x, start, stop):
-    path = quietly(x).path(start, stop)
+    path = quietly(x).way(start, stop)
     t = np.linspace(0, 1, 33)
     weights = at(path, t)
     np.testing.assert_array_equal(weights[[0, -1]], np.eye(10)[[start, stop]])
@@ -92,7 +91,7 @@ def test_the_weights_of_a_path_are_those_of_its_points(x, start, stop):
     if len(np.unique(x, axis=0)) < 10 or np.linalg.matrix_rank(x - x.mean(axis=0)) < 3:
         return
     triangulation = quietly(x)
-    path = triangulation.path(start, stop)
+    path = triangulation.way(start, stop)
     for t in (0.1, 0.37, 0.8):
         here = (1 - t) * x[start] + t * x[stop]
         located = triangulation.weights(here)
@@ -103,7 +102,7 @@ def test_the_weights_of_a_path_are_those_of_its_points(x, start, stop):
 @pytest.mark.parametrize("k", [2, 3, 4, 5, 6])
 def test_paths_in_every_dimension_of_the_paper(k):
     x = np.random.default_rng(k).normal(size=(40, k))
-    path = Triangulation.of(x).path(3, 17)
+    path = Triangulation.of(x).way(3, 17)
     assert (np.diff(path.knots) > 0).all()
     assert (path.weights > 0).sum(axis=1).max() <= k + 1
     line = (1 - path.knots)[:, None] * x[3] + path.knots[:, None] * x[17]
@@ -116,7 +115,7 @@ def test_coincident_points_are_one_vertex():
         triangulation = Triangulation.of(x)
     assert set(triangulation.simplices.ravel()) == {0, 1, 2, 3, 4}
     # A coincident material is still reached exactly.
-    assert_allclose(at(triangulation.path(5, 3), [0, 1]), np.eye(7)[[5, 3]])
+    assert_allclose(at(triangulation.way(5, 3), [0, 1]), np.eye(7)[[5, 3]])
 
 
 @pytest.mark.parametrize(
@@ -139,14 +138,14 @@ def test_flat_points_drop_a_dimension_and_say_so(x, n_dimensions):
     with pytest.warns(DegenerateSpaceWarning, match=f"extend in {n_dimensions} of 3 dimensions"):
         triangulation = Triangulation.of(x)
     assert triangulation.n_dimensions == n_dimensions
-    path = triangulation.path(0, 1)
+    path = triangulation.way(0, 1)
     assert_allclose(at(path, 0.5) @ x, [(x[0] + x[1]) / 2], atol=1e-9)
 
 
 def test_points_that_all_coincide_are_still_a_space():
     triangulation = quietly(np.ones((4, 2)))
     assert_allclose(
-        at(triangulation.path(1, 3), [0, 0.5, 1]), [[0, 1, 0, 0], [0, 0.5, 0, 0.5], [0, 0, 0, 1]]
+        at(triangulation.way(1, 3), [0, 0.5, 1]), [[0, 1, 0, 0], [0, 0.5, 0, 0.5], [0, 0, 0, 1]]
     )
 
 
@@ -167,7 +166,7 @@ def test_outside_the_hull_is_an_error_not_the_last_simplex():
 def test_the_scale_of_the_scores_does_not_matter():
     """Raw scores reach 1e5 and fall to 1e-3; tolerances are shares of the extent."""
     x = np.random.default_rng(5).normal(size=(20, 3)) * [1, 0.1, 0.01]
-    paths = [Triangulation.of(scale * x).path(2, 9) for scale in (1e-6, 1, 1e6)]
+    paths = [Triangulation.of(scale * x).way(2, 9) for scale in (1e-6, 1, 1e6)]
     for path in paths[1:]:
         assert_allclose(path.knots, paths[0].knots, atol=1e-9)
         assert_allclose(path.weights, paths[0].weights, atol=1e-9)
@@ -179,13 +178,10 @@ def test_a_paper_space_of_very_many_simplices_is_walked(small_library, monkeypat
     made = PaperSpace.fit(small_library, pca)
     monkeypatch.setattr("halfway.space.spaces.MOST_SIMPLICES", 10)
     walked = PaperSpace.fit(small_library, pca)
-    assert isinstance(walked.triangulations[0], DelaunayWalk)
+    assert isinstance(walked.charts[0].delaunay, DelaunayWalk)
     t = np.linspace(0, 1, 23)
     for start, stop in ((0, 1), (3, 7), (8, 2)):
-        a, b = (
-            interpolate(t, leg.knots, leg.weights)
-            for leg in (space.leg(start, stop) for space in (made, walked))
-        )
+        a, b = (leg.at(t) for leg in (space.leg(start, stop) for space in (made, walked)))
         assert_allclose(a, b, atol=1e-8)
 
 
@@ -193,7 +189,7 @@ def test_ten_thousand_points_in_six_dimensions_are_walked():
     """Thirteen million simplices, of which a line meets some dozens."""
     points = np.random.default_rng(0).normal(size=(10_000, 6))
     walk = DelaunayWalk.of(points)
-    path = walk.path(3, 4)
+    path = walk.way(3, 4)
     assert_allclose(
         path.weights @ points, path.knots[:, None] * (points[4] - points[3]) + points[3], atol=1e-7
     )

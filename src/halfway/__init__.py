@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from .halfdiff import MERL, Grid, HalfDiff, from_half_diff, to_half_diff
     from .library import Library, build_library, open_library
     from .recipes import Recipe, mix
-    from .space import LinearSpace, PaperSpace, Route, Space
+    from .space import LinearSpace, PaperSpace, Route, Space, make_space, route
 
 _HOMES = {
     "brdf": ("Brdf", "TabularBrdf", "directional_albedo", "tabulate"),
@@ -24,7 +24,7 @@ _HOMES = {
     "components": ("Pca",),
     "library": ("Library", "build_library", "open_library"),
     "recipes": ("Recipe", "mix"),
-    "space": ("LinearSpace", "PaperSpace", "Route", "Space"),
+    "space": ("LinearSpace", "PaperSpace", "Route", "Space", "make_space", "route"),
 }
 
 __all__ = [
@@ -44,8 +44,10 @@ __all__ = [
     "build_library",
     "directional_albedo",
     "from_half_diff",
+    "make_space",
     "mix",
     "open_library",
+    "route",
     "tabulate",
     "to_half_diff",
 ]

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     import numpy as np
 
-    from .recipes import Recipe
+    from .library import LibraryRef
+    from .recipes import Blend, Recipe
     from .space import Route
 
 
@@ -22,7 +23,7 @@ def register() -> None:
     png = shell.display_formatter.formatters["image/png"]
     png.for_type_by_name("halfway.brdf.table", "TabularBrdf", _table)
     png.for_type_by_name("halfway.recipes.recipe", "Recipe", recipe_png)
-    png.for_type_by_name("halfway.space.route", "Route", route_png)
+    png.for_type_by_name("halfway.space.routes", "Route", route_png)
 
 
 def _table(table: object) -> bytes:
@@ -33,7 +34,7 @@ def _table(table: object) -> bytes:
 
 def recipe_png(recipe: "Recipe") -> bytes | None:
     """The sphere of a recipe; None, for text alone, where its library is out of reach."""
-    return _recipes_png(recipe.library, recipe.names, recipe.weights[:, None])
+    return _recipes_png(recipe.library, recipe.names, recipe.weights[:, None], recipe.blend)
 
 
 def route_png(route: "Route") -> bytes | None:
@@ -42,15 +43,19 @@ def route_png(route: "Route") -> bytes | None:
 
     from .look import N_SPHERES
 
-    return _recipes_png(route.library, route.names, route.at(np.linspace(0, 1, N_SPHERES)))
+    return _recipes_png(
+        route.library, route.names, route.at(np.linspace(0, 1, N_SPHERES)), route.blend
+    )
 
 
-def _recipes_png(library: str, names: tuple[str, ...], weights: "np.ndarray") -> bytes | None:
+def _recipes_png(
+    library: "LibraryRef", names: tuple[str, ...], weights: "np.ndarray", blend: "Blend"
+) -> bytes | None:
     from .errors import HalfwayError
     from .library import open_library
     from .look import recipes_png
 
     try:
-        return recipes_png(open_library(library), names, weights)
+        return recipes_png(open_library(library.address or library.name), names, weights, blend)
     except (HalfwayError, OSError):
         return None

@@ -14,7 +14,7 @@ from halfway.library import ProceduralLibrary, Subset
 from halfway.recipes import Recipe
 from halfway.server import Page
 from halfway.server.explorer import Explorer as Answers
-from halfway.server.schema import Place
+from halfway.server.schema import Point
 from halfway.server.static import export
 
 MATERIALS = (
@@ -79,7 +79,7 @@ def test_the_slider_goes_along_the_servers_route(explorer: Explorer, subset: Sub
         name: (1 - share) * a + share * b
         for name, a, b in zip(route.names, route.weights.r[k], route.weights.r[k + 1], strict=True)
     }
-    assert found.library == "browser"
+    assert found.library.name == "browser"
     assert dict(zip(found.names, found.weights[0], strict=True)) == pytest.approx(
         {name: weight for name, weight in expected.items() if weight}, abs=1e-9
     )
@@ -93,7 +93,7 @@ def test_a_free_place_is_found_without_a_server(explorer: Explorer, subset: Subs
         for embedding in view.embeddings
         for k in range(len(embedding.axes))
     ]
-    recipe = Answers(subset).place(Place(space="anchored", point=point)).recipe.weights
+    recipe = Answers(subset).position(Point(space="anchored", point=point)).recipe.weights
     explorer.open(f"{PAIR}&point={','.join(map(str, point))}")
     explorer.page.wait_for_function(
         "n => document.querySelectorAll('.recipe .name').length === n", arg=len(recipe)

@@ -134,7 +134,7 @@ def _recipe() -> dict[str, Any]:
     route = Route.through(
         PaperSpace.fit(library, Pca.fit(library)), ["material-0", "material-3", "material-5"]
     )
-    ts = [0.0, 0.1, 0.25, float(route.knots[1]), 0.5, 0.7, 0.999, 1.0]
+    ts = [0.0, 0.1, 0.25, float(route.way.knots[1]), 0.5, 0.7, 0.999, 1.0]
     recipes: list[Recipe] = route.recipes(ts)
     return {
         "route": to_view(route).model_dump(mode="json"),
@@ -145,7 +145,7 @@ def _recipe() -> dict[str, Any]:
 def _static() -> dict[str, Any]:
     """What the page works out of files, and the server by itself: routes of legs, and places."""
     from halfway.server.explorer import Explorer
-    from halfway.server.schema import Place
+    from halfway.server.schema import Point
     from halfway.server.static import triangulations
 
     rng = np.random.default_rng(5)
@@ -166,8 +166,8 @@ def _static() -> dict[str, Any]:
             # From the middle outwards: the first few are inside.
             for reach in (1.0, 3.0):
                 point = points.mean(axis=0) + reach * (weights @ points - points.mean(axis=0))
-                place = Place(space=name, point=point.tolist())
-                answer = explorer.place(place).model_dump(mode="json")
+                place = Point(space=name, point=point.tolist())
+                answer = explorer.position(place).model_dump(mode="json")
                 places.append({**place.model_dump(mode="json"), "answer": answer})
     return {
         "names": list(tables),

@@ -24,20 +24,19 @@ def demo(
 
     Uses the built-in library, which needs no download: published analytic fits of the MERL materials.
     """
+    import halfway
     from halfway.components import Pca
     from halfway.export import write_report, write_route
     from halfway.formats import write_brdf
     from halfway.library import DEFAULT_LIBRARY, open_library
     from halfway.recipes import Mixer
     from halfway.render import BasisPictures, Renderer, pictures
-    from halfway.space import Route, make_space
 
     library = open_library(DEFAULT_LIBRARY)
     say(f"Library {library.name}: {library.origin.description}.")
     pca = Pca.fit(library, work=work())
     write_report(output / "report", library, pca)
-    space = make_space("paper", library, work=work())
-    route = Route.through(space, STOPS)
+    route = halfway.route(library, *STOPS, space="paper", pace="uniform", work=work())
     ts = route.steps(51)
     write_route(output, route, ts, library, work=work())
     mixer = Mixer(library)
@@ -49,7 +48,7 @@ def demo(
     basis = BasisPictures(renderer, library.brdf, work=work())
     recipes = route.recipes(ts)
     basis.render(sorted({name for recipe in recipes for name in recipe.names}))
-    images = [basis.picture(recipe.names, recipe.weights) for recipe in recipes]
+    images = [basis.picture(recipe) for recipe in recipes]
     shown = [round(i * 50 / (N_IN_STRIP - 1)) for i in range(N_IN_STRIP)]
     strip = pictures.strip([images[i] for i in shown], labels=[f"t = {ts[i]:.2f}" for i in shown])
     pictures.write(output / "strip.png", strip)

@@ -5,7 +5,9 @@ from typing import Annotated
 
 import typer
 
+from . import options
 from .console import say, work
+from .options import SpaceName
 
 
 def mix(
@@ -19,8 +21,9 @@ def mix(
     ] = ...,  # pyright: ignore[reportArgumentType] (required)
     point: Annotated[
         str,
-        typer.Option(metavar="X,Y,...", help="A point of the anchored space, instead of a recipe."),
+        typer.Option(metavar="X,Y,...", help="A point of the space, instead of a recipe."),
     ] = "",
+    space: options.Space = SpaceName.anchored,
     clamp: Annotated[
         bool, typer.Option(help="Take the nearest mix where the point is outside the hull.")
     ] = False,
@@ -32,21 +35,19 @@ def mix(
     halfway mix route/recipes.json:25 -o middle.binary
     halfway mix --point=-2e4,1e3,-500,0.1,0.05,0.02 --clamp -o there.binary     coordinates: halfway space
     """
+    import halfway
     from halfway.formats import write_brdf
-    from halfway.library import open_library
-    from halfway.recipes import mix as mixed
-    from halfway.space import anchored_space
+    from halfway.space import make_space
 
     from .arguments import DEFAULT_LIBRARY, ArgumentError, parse_point, to_recipe
 
     if point:
         if len(words or []) > 1:
             raise ArgumentError("--point and a recipe are given: a material takes one of them.")
-        library = open_library(words[0] if words else DEFAULT_LIBRARY)
+        library = halfway.open_library(words[0] if words else DEFAULT_LIBRARY)
         x = parse_point(point)
-        made = anchored_space(library, work=work())
-        recipe = made.recipe(x, clamp=clamp)
+        recipe = make_space(space, library, work=work()).at(x, clamp=clamp).recipe
     else:
         library, recipe = to_recipe(words or [])
-    write_brdf(output, mixed(library, recipe))
+    write_brdf(output, halfway.mix(library, recipe))
     say(f"{output}: a mix of {', '.join(recipe.names)}. Next: halfway render {output} -o new.png")

@@ -181,7 +181,7 @@ def _painter(
 
     def paint(material: "Material") -> "np.ndarray":
         assert material.recipe is not None  # a material of a library has one
-        return basis.picture(material.recipe.names, material.recipe.weights)
+        return basis.picture(material.recipe)
 
     return paint
 

@@ -38,7 +38,8 @@ def report(
     halfway report builtin:synthetic-2000 --dry-run
     """
     from halfway.components import Pca, PcaPlan
-    from halfway.export import compare_spaces, write_report
+    from halfway.export import write_report
+    from halfway.judge import compare_spaces
     from halfway.library import open_library
     from halfway.locations import to_location
 
@@ -56,7 +57,7 @@ def report(
         pca = Pca.fit(library, work=work)
         if pairs:
             n_pairs = None if pairs < 0 else pairs
-            compared = compare_spaces(library, pca, n_pairs=n_pairs, seed=seed, work=work)
+            compared = compare_spaces(library, n_pairs=n_pairs, seed=seed, work=work)
     found = write_report(to_location(output), library, pca, spaces=compared)
     if as_json:
         print(json.dumps(found.to_json(), indent=1))

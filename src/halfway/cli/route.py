@@ -30,45 +30,37 @@ def route(
     halfway route teflon gold-paint chrome -n 101
     halfway route cherry-235 tungsten-carbide --space paper --pace uniform --t 0.0001:1:0.0001
     """
-    import numpy as np
-
+    import halfway
     from halfway.export import write_route
-    from halfway.library import open_library
     from halfway.locations import to_location
-    from halfway.look import Looks
-    from halfway.space import LinearSpace, Route, make_space, perceptual
 
     from .arguments import parse_t, require_length, split_library
 
     address, stops = split_library(words)
-    library = open_library(address)
-    # A mistake is told before a space is fitted.
-    for stop in stops:
-        library.index(stop)
-    straight = Route.through(LinearSpace(library.name, library.names), stops)
-    wanted = parse_t(t) if t else None
+    library = halfway.open_library(address)
     require_length(n)
+    # A mistake is told before a space is fitted.
+    straight = halfway.route(library, *stops, space="linear", pace="uniform")
+    wanted = parse_t(t) if t else None
     checked = wanted or straight.steps(n)
-    straight.recipes([np.min(checked), np.max(checked)])
+    straight.recipes([min(checked), max(checked)])
     with working(scheduler) as work:
-        made = make_space(
-            space,
+        way = halfway.route(
             library,
+            *stops,
+            space=space,
+            pace=pace,
             n_components=components,
             detour=detour,
             work=work,
         )
-        found = Route.through(made, stops)
-        if pace is Pace.perceptual:
-            images = Looks.fit(library, work=work)
-            found = perceptual(found, images)
-        ts = wanted or found.steps(n)
+        ts = wanted or way.steps(n)
         if as_json:
-            print(json.dumps(found.to_json(ts)))
+            print(json.dumps(way.to_json(ts)))
         if output is None and as_json:
             return
         folder = to_location(output or "-to-".join(stops))
-        written = write_route(folder, found, ts, library, format=format, work=work)
+        written = write_route(folder, way, ts, library, format=format, work=work)
     tables = f", {written.n_written} tables written" if format != "none" else ""
     kept = f", {written.n_kept} kept" if written.n_kept else ""
     say(f"{folder}: {len(ts)} recipes{tables}{kept}. Next: halfway render {folder} -o route.png")

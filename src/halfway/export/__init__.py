@@ -2,7 +2,7 @@
 
 from . import figures
 from .fits import MODEL_OF, model_of, write_fit
-from .report import Report, TableRow, compare_spaces, write_report
+from .report import Report, TableRow, write_report
 from .routes import Written, write_route
 from .scenes import write_scene
 
@@ -11,7 +11,6 @@ __all__ = [
     "Report",
     "TableRow",
     "Written",
-    "compare_spaces",
     "figures",
     "model_of",
     "write_fit",

@@ -14,12 +14,9 @@ import numpy as np
 
 from ..components import Pca
 from ..files import replacing
-from ..judge import AnchoredPlace, Bench, PaperPlace, evaluate, leave_one_out, sample_pairs
 from ..library import Library
 from ..locations import Location
 from ..recipes import CHANNELS
-from ..space import SPACES, make_space
-from ..tasks import HERE, Work
 from . import figures
 
 FORMAT = 1
@@ -86,29 +83,6 @@ def table_row(pca: Pca, n_components: int) -> TableRow:
         float(unexplained.mean()),
         float(np.sqrt(residuals.sum() / n_samples)),
     )
-
-
-def compare_spaces(
-    library: Library,
-    pca: Pca,
-    *,
-    n_pairs: int | None,
-    seed: int = 0,
-    work: Work = HERE,
-) -> list[dict[str, Any]]:
-    """Every space measured on the same pairs of materials (None: all), and leaving out each material in turn."""
-    bench = Bench.fit(library, work=work)
-    pairs = sample_pairs(len(library), n_pairs, seed=seed)
-    places = {"paper": PaperPlace(pca), "anchored": AnchoredPlace(pca, bench.samples.body)}
-    measured: list[dict[str, Any]] = []
-    for name in SPACES:
-        space = make_space(name, library, work=work)
-        found = {"seed": seed} | evaluate(space, bench, pairs, work=work).to_json()
-        if name in places:
-            left = leave_one_out(name, places[name], bench, work=work).to_json()
-            found["leave_one_out"] = {key: value for key, value in left.items() if key != "space"}
-        measured.append(found)
-    return measured
 
 
 def write_report(

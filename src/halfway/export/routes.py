@@ -72,11 +72,7 @@ def write_route(
         raise OutputError(
             f"{folder} holds a library: expected a folder of the route's own. Choose another with -o."
         )
-    document = {
-        **route.to_json(ts),
-        "library_address": library.address,
-        "library_checksum": library.checksum,
-    }
+    document = route.to_json(ts)
     text = json.dumps(document)
     recipes = route.recipes(ts)
     tables = _tables(format, recipes, library)

@@ -39,6 +39,7 @@ from ..look import (
     cielab_difference,
     shown,
 )
+from ..recipes import Blend
 from ..space import Route, Space, perceptual
 from ..tasks import HERE, Work
 
@@ -180,11 +181,13 @@ class _Measured(NamedTuple):
         alone = np.broadcast_to(
             np.eye(len(bench.samples.names)), (3, *[len(bench.samples.names)] * 2)
         )
-        return cls(*_looks(bench, alone))
+        return cls(*_looks(bench, alone, Blend.LINEAR))  # alone in every blend
 
-    def nearest(self, bench: Bench, weights: Float64[np.ndarray, "3 1 N"]) -> list[float]:
+    def nearest(
+        self, bench: Bench, weights: Float64[np.ndarray, "3 1 N"], blend: Blend
+    ) -> list[float]:
         """The difference of a recipe from the nearest of the materials, each way."""
-        by_solid_angle, by_cell, seen = _looks(bench, weights)
+        by_solid_angle, by_cell, seen = _looks(bench, weights, blend)
         return [
             _nearest(self.by_solid_angle, by_solid_angle[0]),
             _nearest(self.by_cell, by_cell[0]),
@@ -201,17 +204,17 @@ def _nearest(
 
 
 def _looks(
-    bench: Bench, weights: Float64[np.ndarray, "3 n N"]
+    bench: Bench, weights: Float64[np.ndarray, "3 n N"], blend: Blend
 ) -> tuple[
     Float32[np.ndarray, "n n_features"],
     Float32[np.ndarray, "n n_features"],
     Float32[np.ndarray, "n n_pixels 3"],
 ]:
-    values = bench.samples.mix(weights)
+    values = bench.samples.mix(weights, blend)
     return (
         bench.samples.features(values),
         bench.samples.features(values, by="cell"),
-        appearance(bench.judging.mix(weights)),
+        appearance(bench.judging.mix(weights, blend)),
     )
 
 
@@ -224,22 +227,24 @@ def _measure(
 ) -> _Row:
     route = Route.through(space, [space.names[i] for i in pair])
     evenly, middle = route.at(np.linspace(0, 1, N_STEPS)), route.at(np.array([0.5]))
-    pictures = appearance(bench.pacing.mix(evenly))
+    pictures = appearance(bench.pacing.mix(evenly, route.blend))
     distance = float(cielab_difference(pictures[0], pictures[-1]))
     length = float(cielab_difference(pictures[1:], pictures[:-1]).sum())
     return _Row(
         distance,
         length / distance if distance else np.nan,
         [_jumps(bench, pace(route)) for pace in paces],
-        _hue_excursion(bench.samples.body_colour(evenly)),
-        measured.nearest(bench, middle),
+        _hue_excursion(bench.samples.body_colour(evenly, route.blend)),
+        measured.nearest(bench, middle, route.blend),
         1.0 - float(middle[:, 0, pair].sum()) / 3,
     )
 
 
 def _jumps(bench: Bench, route: Route) -> list[float]:
     weights = route.at(np.linspace(0, 1, N_STEPS))
-    seen, judge = (appearance(images.mix(weights)) for images in (bench.pacing, bench.judging))
+    seen, judge = (
+        appearance(images.mix(weights, route.blend)) for images in (bench.pacing, bench.judging)
+    )
     return [
         _jump(ciede2000_difference(seen[1:], seen[:-1])),
         _jump(cielab_difference(seen[1:], seen[:-1])),

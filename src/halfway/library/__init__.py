@@ -4,7 +4,7 @@ from .blocks import columns_per_piece, ranges
 from .building import build_library
 from .coding import Coding, Mapping, Precision
 from .compact import SUFFIX, Arrays, CompactLibrary, Header, arrays_checksum, write_compact
-from .library import Library, Origin, Streamed
+from .library import Library, LibraryRef, Origin, Streamed
 from .opening import DEFAULT_LIBRARY, open_library
 from .procedural import ProceduralLibrary
 from .stored import DESCRIPTION, StoredLibrary
@@ -20,6 +20,7 @@ __all__ = [
     "CompactLibrary",
     "Header",
     "Library",
+    "LibraryRef",
     "Mapping",
     "Origin",
     "Precision",

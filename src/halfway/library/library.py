@@ -17,7 +17,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from difflib import get_close_matches
 from shlex import quote
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from jaxtyping import Float32
@@ -36,6 +36,23 @@ class Origin:
     """One line; says "stand-in" where the materials are fits and not measurements."""
     source: str = ""
     licence: str = ""
+
+
+class LibraryRef(NamedTuple):
+    """Which library: what a recipe, a space or a route knows of the one that it is of."""
+
+    name: str
+    address: str = ""
+    """What `open_library` finds it by; the name where it is not known."""
+    checksum: str = ""
+    """Of the library as it was; empty where it is not known."""
+
+    @classmethod
+    def of(cls, library: "str | LibraryRef | Library") -> "LibraryRef":
+        """The reference to a library, which may be given by its name alone."""
+        if isinstance(library, Library):
+            return cls(library.name, library.address, library.checksum)
+        return cls(library) if isinstance(library, str) else library
 
 
 class Streamed(ABC):

@@ -7,7 +7,7 @@ Direct light is linear in the BRDF, so the picture of a recipe is the same weigh
 (exactly where the materials are measured on the same cells). A hundred pictures along a route cost milliseconds.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
@@ -15,6 +15,7 @@ from jaxtyping import Float, Float32
 
 from ..errors import LibraryError
 from ..library import Library
+from ..recipes import Blend, Recipe
 from ..tasks import HERE, Work
 from .appearance import appearance, cielab_difference
 from .lit_sphere import PACING_SCENE, SphereOperator, SphereScene
@@ -52,8 +53,20 @@ class Looks:
         """Linear RGB of each material; a view."""
         return np.moveaxis(self.planes, 0, -1)
 
-    def mix(self, weights: Float[np.ndarray, "3 *k N"]) -> Float32[np.ndarray, "*k n_pixels 3"]:
+    def thinned(self, step: int) -> "Looks":
+        """Every so many pixels of the pictures, which are enough to measure differences with; contiguous."""
+        return replace(self, planes=np.ascontiguousarray(self.planes[..., ::step]))
+
+    def mix(
+        self, weights: Float[np.ndarray, "3 *k N"], blend: Blend
+    ) -> Float32[np.ndarray, "*k n_pixels 3"]:
         """Linear RGB of recipes, given by their weights over all materials; axes between stay."""
+        match blend:
+            case Blend.LINEAR:
+                return self._sum(weights)
+
+    def _sum(self, weights: Float[np.ndarray, "3 *k N"]) -> Float32[np.ndarray, "*k n_pixels 3"]:
+        """Direct light is linear in the BRDF: the picture of a linear mix is the mix of the pictures."""
         used = np.flatnonzero(weights.any(axis=tuple(range(weights.ndim - 1))))
         few = weights[..., used].astype(np.float32)
         out = np.empty((*weights.shape[1:-1], self.planes.shape[-1], 3), np.float32)
@@ -61,11 +74,13 @@ class Looks:
             out[..., channel] = w @ plane[used]
         return out
 
-    def picture(self, weights: Float[np.ndarray, "3 N"]) -> Float32[np.ndarray, "size size 3"]:
+    def picture(self, recipe: Recipe) -> Float32[np.ndarray, "size size 3"]:
         """Linear RGB of one recipe as a square picture, 0 beside the sphere."""
+        weights = np.zeros((3, len(self.names)))
+        weights[:, [self.names.index(name) for name in recipe.names]] = recipe.weights
         mask = self.scene.mask()
         picture = np.zeros((*mask.shape, 3), np.float32)
-        picture[mask] = self.mix(weights)
+        picture[mask] = self.mix(weights, recipe.blend)
         return picture
 
 

@@ -18,6 +18,7 @@ from ..brdf import TabularBrdf
 from ..colour import to_srgb
 from ..halfdiff import Grid
 from ..library import Library
+from ..recipes import Blend
 from ..tasks import HERE
 from .lit_sphere import PACING_SCENE, SphereOperator, SphereScene
 
@@ -38,14 +39,19 @@ def table_png(table: TabularBrdf) -> bytes:
 
 
 def recipes_png(
-    library: Library, names: Sequence[str], weights: Float64[np.ndarray, "3 n_recipes n"]
+    library: Library,
+    names: Sequence[str],
+    weights: Float64[np.ndarray, "3 n_recipes n"],
+    blend: Blend,
 ) -> bytes:
     """A PNG file of the spheres of recipes over the materials ``names`` of ``library``."""
     used = np.flatnonzero(weights.any(axis=(0, 1)))
     scene = PORTRAIT_SCENE if weights.shape[1] == 1 else STRIP_SCENE
     indices = [library.index(names[int(i)]) for i in used]
     pictures = np.stack(list(HERE.run(partial(_picture, library, scene), indices)))
-    mixed = np.einsum("ctn,npc->tpc", weights[..., used], pictures, optimize=True)
+    match blend:
+        case Blend.LINEAR:
+            mixed = np.einsum("ctn,npc->tpc", weights[..., used], pictures, optimize=True)
     return to_png(list(mixed.astype(np.float32)), scene)
 
 

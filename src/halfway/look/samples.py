@@ -22,6 +22,7 @@ from ..brdf import MAPPINGS, Metric, comparison_cells
 from ..errors import LibraryError
 from ..halfdiff import Grid
 from ..library import Library
+from ..recipes import Blend
 from ..tasks import HERE, Work
 
 BODY_THETA_H_DEGREES = 25.0
@@ -78,15 +79,23 @@ class CellSamples:
             arrays["body"],
         )
 
-    def mix(self, weights: Float[np.ndarray, "3 *k N"]) -> Float32[np.ndarray, "3 *k n_cells"]:
+    def mix(
+        self, weights: Float[np.ndarray, "3 *k N"], blend: Blend
+    ) -> Float32[np.ndarray, "3 *k n_cells"]:
         """Values of recipes, given by their weights over all materials."""
-        return np.stack(
-            [w.astype(np.float32) @ values for w, values in zip(weights, self.values, strict=True)]
-        )
+        match blend:
+            case Blend.LINEAR:
+                few = weights.astype(np.float32)
+                return np.stack([w @ values for w, values in zip(few, self.values, strict=True)])
 
-    def body_colour(self, weights: Float[np.ndarray, "3 *k N"]) -> Float64[np.ndarray, "*k 3"]:
+    def body_colour(
+        self, weights: Float[np.ndarray, "3 *k N"], blend: Blend
+    ) -> Float64[np.ndarray, "*k 3"]:
         """Body colours of recipes, 1/sr."""
-        return np.stack([w @ body for w, body in zip(weights, self.body.T, strict=True)], axis=-1)
+        match blend:
+            case Blend.LINEAR:
+                sums = [w @ body for w, body in zip(weights, self.body.T, strict=True)]
+                return np.stack(sums, axis=-1)
 
     def features(
         self,

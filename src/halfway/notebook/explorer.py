@@ -16,9 +16,9 @@ from traitlets import Float, Instance, List, Unicode, default, observe, validate
 from ..errors import HalfwayError, SpaceError
 from ..library import DEFAULT_LIBRARY, Library, open_library
 from ..recipes import Recipe
-from ..server import PACES, Place, app_of, refresh
 from ..server import Explorer as Answers
-from ..space import SPACES, LinearSpace, Route
+from ..server import Point, app_of, refresh
+from ..space import PACES, SPACES, LinearSpace, Route
 from ..tasks import Work
 from .messages import Answerer
 
@@ -81,15 +81,15 @@ class Explorer(AnyWidget):
         stops: Sequence[str] = (),
         *,
         t: float = 0.5,
-        space: str = SPACES[0],
+        space: str = next(iter(SPACES)),
         pace: str = PACES[0],
         work: Work = WITH_CACHE,
     ) -> None:
         self.library = library if isinstance(library, Library) else open_library(library)
         self._answers = Answers(self.library, work=work)
         self._route: Route | None = None
-        place = {"space": space, "pace": pace, "stops": list(stops) or self._favourites(), "t": t}
-        super().__init__(**place)
+        stops = list(stops) or self._favourites()
+        super().__init__(space=space, pace=pace, stops=stops, t=t)
         self._answerer = Answerer(app_of(self._answers), self.send)
         self.on_msg(self._receive)
 
@@ -114,8 +114,8 @@ class Explorer(AnyWidget):
         if self.point is None:
             recipe = self.route.recipe(self.t)
         else:
-            place = self._answers.place(Place(space=self.space, point=self.point))
-            recipe = Recipe.from_json(place.recipe.model_dump())
+            position = self._answers.position(Point(space=self.space, point=self.point))
+            recipe = Recipe.from_json(position.recipe.model_dump())
         self.set_trait("recipe", recipe)
 
     @validate("space", "pace")
@@ -132,7 +132,7 @@ class Explorer(AnyWidget):
         for stop in stops:
             self.library.index(stop)
         # The plainest way there says what no way can be.
-        Route.through(LinearSpace(self.library.name, self.library.names), stops)
+        Route.through(LinearSpace.of(self.library), stops)
         return stops
 
     @validate("t")

@@ -20,6 +20,7 @@ from ..tasks import HERE, Work
 from .reported import FINE_TS, N_STEPS, RUNS, Run
 
 SPACES = ("paper", "linear", "anchored")
+"""In the order in which they are compared."""
 LEAST_MATERIALS = 6
 """Two for each of the three runs."""
 
@@ -88,7 +89,7 @@ class Experiment:
             run.figure,
             stops,
             run.stops,
-            int(self.route(run).weights.any(axis=(0, 1)).sum()),
+            len(self.route(run).used()),
             {name: float(each.detour[0]) for name, each in found.items()},
             {name: float(each.jump["uniform"][0]) for name, each in found.items()},
         )
@@ -105,10 +106,8 @@ class Experiment:
         return {"51": float(coarse.max()), "fine": float(self._steps(run, FINE_TS).max())}
 
     def _steps(self, run: Run, ts: np.ndarray) -> Float64[np.ndarray, " n_steps"]:
-        few = Looks(
-            self.bench.pacing.names, self.bench.pacing.scene, self.bench.pacing.planes[..., ::16]
-        )
-        looks = appearance(few.mix(self.route(run).at(ts)))
+        route = self.route(run)
+        looks = appearance(self.bench.pacing.thinned(16).mix(route.at(ts), route.blend))
         return np.asarray(ciede2000_difference(looks[:-1], looks[1:]), np.float64)
 
 

@@ -185,7 +185,7 @@ class _Draw:
     ) -> list[np.ndarray]:
         recipes = self._experiment.route(run, space).recipes(list(ts))
         basis.render(sorted({n for recipe in recipes for n in recipe.names}))
-        return [basis.picture(recipe.names, recipe.weights) for recipe in recipes]
+        return [basis.picture(recipe) for recipe in recipes]
 
     def _write(self, name: str, image: np.ndarray) -> None:
         pictures.write(self._folder / f"{name}.webp", image)
@@ -200,7 +200,7 @@ def _one_in_full(
     mixer.mix(recipe)  # compiles, and reads the rows
     table, seconds_per_material = _timed(lambda: mixer.mix(recipe))
     rendered, seconds_per_picture = _timed(lambda: renderer.picture(table))
-    mixed = basis.picture(recipe.names, recipe.weights)
+    mixed = basis.picture(recipe)
     error = float(np.abs(mixed - rendered).mean() / rendered.mean())
     return seconds_per_material, seconds_per_picture, error
 

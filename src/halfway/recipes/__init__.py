@@ -1,6 +1,7 @@
 """Recipes, and the mixing of recipes into tables."""
 
-from .mix import Mixer, mix
+from .blend import Blend
+from .mixing import Mixer, mix
 from .recipe import CHANNELS, Recipe
 
-__all__ = ["CHANNELS", "Mixer", "Recipe", "mix"]
+__all__ = ["CHANNELS", "Blend", "Mixer", "Recipe", "mix"]

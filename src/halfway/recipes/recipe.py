@@ -1,14 +1,15 @@
-"""Recipes: barycentric weights over the materials of a library.
+"""Recipes: a blend, and barycentric weights over the materials of a library.
 
 A material is its recipe: some hundred bytes. Tables and pictures are made from it on demand. As JSON,
 
     {"library": "builtin:merl-abc", "weights": {"gold-paint": 0.7, "teflon": 0.3}}
     {"library": "builtin:merl-abc", "weights": {"r": {...}, "g": {...}, "b": {...}}}
 
-the second form where the channels differ. Every weight is positive and each channel sums to 1.
+the second form where the channels differ. Every weight is positive and each channel sums to 1. ``"blend"`` says how they
+are mixed, where it is not linear; ``"library_address"`` and ``"library_checksum"`` may say which library it is.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -16,6 +17,8 @@ import numpy as np
 from jaxtyping import Float64
 
 from ..errors import RecipeError
+from ..library import Library, LibraryRef
+from .blend import Blend
 
 CHANNELS: tuple[str, str, str] = ("r", "g", "b")
 SUM_TOLERANCE = 1e-6
@@ -24,16 +27,18 @@ SUM_TOLERANCE = 1e-6
 
 @dataclass(frozen=True, eq=False)
 class Recipe:
-    """Weights over some materials of a library, per channel.
+    """Weights over some materials of a library, per channel, and how they are mixed.
 
     Parameters
     ----------
-    library : str
-        The library's name.
+    library : LibraryRef
+        The library whose materials they are.
     names : tuple of str
         The n materials that carry weight in any channel.
     weights : float64 array, shape (3, n)
         Non-negative; each row sums to 1.
+    blend : Blend
+        How the weighted materials become one.
 
     Examples
     --------
@@ -43,24 +48,30 @@ class Recipe:
     {'gold-paint': 0.7, 'teflon': 0.3}
     """
 
-    library: str
+    library: LibraryRef
     names: tuple[str, ...]
     weights: Float64[np.ndarray, "3 n"]
+    blend: Blend = Blend.LINEAR
 
     def __post_init__(self) -> None:
         self.weights.flags.writeable = False
 
     def __repr__(self) -> str:
-        return f"Recipe({self.library!r}, {self.to_json()['weights']})"
+        return f"Recipe({self.library.name!r}, {self.to_json()['weights']})"
 
     @classmethod
-    def of(cls, library: str, weights: Mapping[str, Any]) -> "Recipe":
+    def of(
+        cls,
+        library: str | LibraryRef | Library,
+        weights: Mapping[str, Any],
+        blend: Blend | str = Blend.LINEAR,
+    ) -> "Recipe":
         """The recipe with these weights: one map for all channels, or one under each of "r", "g", "b".
 
         Raises
         ------
         RecipeError
-            When a weight is negative or no number, or a channel does not sum to 1.
+            When a weight is negative or no number, a channel does not sum to 1, or there is no such blend.
         """
         per_channel = (
             [weights[c] for c in CHANNELS] if set(weights) == set(CHANNELS) else [weights] * 3
@@ -70,26 +81,29 @@ class Recipe:
             _checked(channel, f"channel {c}")
             for c, channel in zip(CHANNELS, per_channel, strict=True)
         ]
-        return cls(
-            library,
-            names,
-            np.array([[channel.get(name, 0.0) for name in names] for channel in checked]),
-        )
+        rows = np.array([[channel.get(name, 0.0) for name in names] for channel in checked])
+        return cls(LibraryRef.of(library), names, rows, Blend(blend))
 
     @classmethod
     def from_dense(
-        cls, library: str, names: tuple[str, ...], weights: Float64[np.ndarray, "3 N"]
+        cls,
+        library: str | LibraryRef | Library,
+        names: Sequence[str],
+        weights: Float64[np.ndarray, "3 N"],
+        blend: Blend = Blend.LINEAR,
     ) -> "Recipe":
         """The recipe of weights over all ``names``, keeping those that carry any."""
         kept = np.flatnonzero(weights.any(axis=0))
-        return cls(library, tuple(names[i] for i in kept), weights[:, kept])
+        return cls(
+            LibraryRef.of(library), tuple(names[int(i)] for i in kept), weights[:, kept], blend
+        )
 
     @classmethod
-    def from_text(cls, library: str, text: str) -> "Recipe":
+    def from_text(cls, library: str | LibraryRef | Library, text: str) -> "Recipe":
         """The recipe written as ``"gold-paint=0.7, teflon=0.3"``."""
         weights: dict[str, float] = {}
         for part in filter(None, (part.strip() for part in text.split(","))):
-            name, equals, number = (piece.strip() for piece in part.partition("="))
+            name, equals, number = (piece.strip() for piece in part.rpartition("="))
             if not equals:
                 raise RecipeError(
                     f'{part!r} has no weight: expected NAME=WEIGHT, such as "gold-paint=0.7, teflon=0.3".'
@@ -103,11 +117,14 @@ class Recipe:
         return cls.of(library, weights)
 
     @classmethod
-    def from_json(cls, document: Any, *, library: str = "") -> "Recipe":
+    def from_json(cls, document: Any, *, library: str | LibraryRef | Library = "") -> "Recipe":
         """The recipe in a JSON document; ``library`` stands in where the document names none."""
         try:
-            weights = document["weights"]
-            return cls.of(document.get("library", library), weights)
+            return cls.of(
+                _library_in(document) or library,
+                document["weights"],
+                document.get("blend", Blend.LINEAR),
+            )
         except (KeyError, TypeError, AttributeError):
             raise RecipeError(
                 'this JSON is no recipe: expected {"library": NAME, "weights": {MATERIAL: WEIGHT, ...}}.'
@@ -121,7 +138,16 @@ class Recipe:
         ]
         same = channels[0] == channels[1] == channels[2]
         weights = channels[0] if same else dict(zip(CHANNELS, channels, strict=True))
-        return {"library": self.library, "weights": weights}
+        blend = {} if self.blend is Blend.LINEAR else {"blend": str(self.blend)}
+        return {"library": self.library.name, **blend, "weights": weights}
+
+
+def _library_in(document: Mapping[str, Any]) -> LibraryRef | None:
+    name = document.get("library")
+    if not name:
+        return None
+    address, checksum = document.get("library_address"), document.get("library_checksum")
+    return LibraryRef(str(name), str(address or ""), str(checksum or ""))
 
 
 def _checked(weights: Mapping[str, Any], where: str) -> dict[str, float]:

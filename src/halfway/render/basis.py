@@ -9,14 +9,14 @@ so no frame flickers against the next.
 """
 
 from collections import OrderedDict
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable
 from hashlib import sha256
 
 import numpy as np
 
-from .._types import Weights
 from ..brdf import TabularBrdf
 from ..errors import RenderError
+from ..recipes import Blend, Recipe
 from ..tasks import HERE, Work
 from .renderer import Renderer
 
@@ -44,7 +44,7 @@ class BasisPictures:
     Examples
     --------
     >>> basis = BasisPictures(Renderer("teapot"), library.table)                    # doctest: +SKIP
-    >>> frames = [basis.picture(r.names, r.weights) for r in route.recipes(ts)]     # doctest: +SKIP
+    >>> frames = [basis.picture(r) for r in route.recipes(ts)]     # doctest: +SKIP
     """
 
     def __init__(
@@ -72,18 +72,25 @@ class BasisPictures:
         for name in self._work.track(missing, "Basis images", len(missing)):
             self._basis(name)
 
-    def picture(self, names: Sequence[str], weights: Weights) -> np.ndarray:
+    def picture(self, recipe: Recipe) -> np.ndarray:
         """The picture of a recipe, float32, shape (height, width, 3): linear RGB radiance.
 
-        ``weights``, shape (3, n), are those of the n materials ``names``; each row sums to 1.
+        Raises
+        ------
+        RenderError
+            When its blend is not linear, for then the picture of the mix is not the mix of the pictures.
         """
+        if recipe.blend is not Blend.LINEAR:
+            raise RenderError(
+                f"the pictures of a {recipe.blend} mix do not mix: expected a linear recipe. Render the mixed table."
+            )
         width, height = self._renderer.size
         mixed = np.zeros((3, height, width), np.float32)
-        for i, name in enumerate(names):
+        for i, name in enumerate(recipe.names):
             planes = self._basis(name)
             for channel in range(3):
-                if weights[channel, i] != 0:
-                    mixed[channel] += np.float32(weights[channel, i]) * planes[channel]
+                if recipe.weights[channel, i] != 0:
+                    mixed[channel] += np.float32(recipe.weights[channel, i]) * planes[channel]
         return np.ascontiguousarray(np.moveaxis(mixed, 0, -1))
 
     def _basis(self, name: str) -> np.ndarray:

@@ -15,15 +15,14 @@ from .run import serve
 
 if TYPE_CHECKING:
     from .app import app_of, create_app
-    from .explorer import PACES, Explorer
-    from .schema import Place
+    from .explorer import Explorer
+    from .schema import Point
     from .static import export, require_own
 
 __all__ = [
-    "PACES",
     "Explorer",
     "Page",
-    "Place",
+    "Point",
     "app_of",
     "create_app",
     "export",
@@ -35,8 +34,8 @@ __all__ = [
 # The web framework takes half a second to load, in which the browser starts already: see `run`.
 _LATER = {
     "app": ("app_of", "create_app"),
-    "explorer": ("PACES", "Explorer"),
-    "schema": ("Place",),
+    "explorer": ("Explorer",),
+    "schema": ("Point",),
     "static": ("export", "require_own"),
 }
 

@@ -4,7 +4,7 @@
     GET  /api/library               what is being explored
     GET  /api/spaces/{space}        a space as points to look at
     GET  /api/route                 ?space=paper&stop=A&stop=B: weights at knots
-    POST /api/place                 the recipe at a free place of a space
+    POST /api/position              the recipe at a point of a space
     GET  /api/tables/{material}     a table as half floats (`blocks`)
     GET  /api/thumbnails            small pictures of all materials, as half floats
     GET  /api/environment           the studio, as half floats
@@ -31,7 +31,15 @@ from .blocks import Block
 from .explorer import SUFFIXES, Explorer
 from .guard import LOOPBACK, Guard
 from .page import Page
-from .schema import LibrarySummary, Place, PlaceView, Problem, RecipeDocument, RouteView, SpaceView
+from .schema import (
+    LibrarySummary,
+    Point,
+    PositionView,
+    Problem,
+    RecipeDocument,
+    RouteView,
+    SpaceView,
+)
 
 Name = Annotated[str, Path(max_length=200)]
 MISTAKES: dict[int | str, dict[str, Any]] = {400: {"model": Problem}, 404: {"model": Problem}}
@@ -101,9 +109,9 @@ def _add_queries(app: FastAPI, explorer: Explorer) -> None:
     ) -> RouteView:
         return explorer.route(space, stop, pace)
 
-    @app.post("/api/place")
-    def place(place: Place) -> PlaceView:
-        return explorer.place(place)
+    @app.post("/api/position")
+    def position(point: Point) -> PositionView:
+        return explorer.position(point)
 
     @app.post("/api/export/{format}", response_class=Response, responses=BYTES)
     def export(format: Name, recipe: RecipeDocument) -> StreamingResponse:

@@ -82,7 +82,7 @@ class LibrarySummary(Model):
     """Formats of ``/api/export/{format}``."""
 
 
-class Embedding(Model):
+class EmbeddingView(Model):
     """The materials as points in up to three dimensions, to be looked at."""
 
     name: str
@@ -100,7 +100,9 @@ class SpaceView(Model):
     """A space, to be looked at: one embedding, or one per channel."""
 
     name: str
-    embeddings: list[Embedding]
+    has_points: bool
+    """Whether a mix stands at any point between the materials."""
+    embeddings: list[EmbeddingView]
 
 
 class WeightTable(Model):
@@ -144,21 +146,21 @@ class RecipeDocument(Model):
     weights: ChannelWeights | WeightsByName
 
 
-class Place(Model):
-    """A free place in a space: the coordinates of its embeddings, one embedding after another."""
+class Point(Model):
+    """A point of a space: the coordinates of its embeddings, one embedding after another."""
 
     space: str
     point: Annotated[list[float], Field(min_length=1, max_length=24)]
 
 
-class PlaceView(Model):
-    """The material at a place."""
+class PositionView(Model):
+    """The material at a point of a space."""
 
     recipe: RecipeDocument
     point: list[float]
-    """Where it is: the place asked for, or the nearest that is a mix."""
+    """The point asked for, or the nearest that is a mix."""
     inside: bool
-    """Whether the place asked for is a mix."""
+    """Whether the point asked for is a mix."""
 
 
 class BlockFile(Model):

@@ -29,7 +29,7 @@ from ..errors import DegenerateSpaceWarning, OutputError
 from ..files import replacing_folder
 from ..library import Library
 from ..look import Looks
-from ..space import SPACES, AnchoredSpace, PaperSpace, Route, Space, Triangulation, lengths
+from ..space import SPACES, Route, Space, Triangulation, lengths
 from ..tasks import HERE, Work
 from .blocks import Block
 from .explorer import Explorer, to_view
@@ -165,38 +165,24 @@ def _write_space(files: _Files, explorer: Explorer, name: str, work: Work) -> No
 
 
 def triangulations(space: Space) -> list[TriangulationView]:
-    """What the page needs to find the weights of a place."""
+    """What the page needs to find the weights at a point."""
     with warnings.catch_warnings():
         # Said already, when the space was made.
         warnings.simplefilter("ignore", DegenerateSpaceWarning)
-        return _triangulations(space)
+        return [
+            _triangulation(triangulation, chart.coordinates.scale)
+            for triangulation, chart in zip(space.triangulations(), space.charts, strict=True)
+        ]
 
 
-def _triangulations(space: Space) -> list[TriangulationView]:
-    match space:
-        case AnchoredSpace():
-            scaled = Triangulation.of(space.points * space.scale)
-            return [_triangulation(scaled, space.scale, spread=np.ones(scaled.n_dimensions))]
-        case PaperSpace():
-            return [
-                _triangulation(Triangulation.of(t.points), np.ones(t.points.shape[1]))
-                for t in space.triangulations
-            ]
-        case _:
-            return []
-
-
-def _triangulation(
-    triangulation: Triangulation, scale: np.ndarray, *, spread: np.ndarray | None = None
-) -> TriangulationView:
-    """The triangulation of scaled points, of the points as they are; ``spread`` is theirs unless it is given."""
+def _triangulation(triangulation: Triangulation, scale: np.ndarray) -> TriangulationView:
+    """The triangulation of scaled points, of the points as they are."""
     origin, basis = triangulation.origin, triangulation.basis
-    flat = (triangulation.points - origin) @ basis
     return TriangulationView(
         origin=(origin / scale).tolist(),
         frame=(scale[:, None] * basis).tolist(),
-        points=flat.tolist(),
-        spread=(flat.std(axis=0) if spread is None else spread).tolist(),
+        points=((triangulation.points - origin) @ basis).tolist(),
+        spread=[1.0] * triangulation.n_dimensions,
         simplices=triangulation.simplices.tolist(),
     )
 

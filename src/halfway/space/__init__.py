@@ -1,28 +1,38 @@
 """Spaces where materials are points, and the routes through them."""
 
-from .anchored import AnchoredSpace, anchored_scale
+from .anchored import AnchoredSpace
+from .coordinates import Coordinates, Numbers, Scores
+from .embedding import Embedding
 from .hull import nearest_in_hull
-from .making import SPACES, anchored_space, make_space
+from .making import PACES, SPACES, make_space, route
 from .pace import lengths, paced, perceptual
-from .route import Route
-from .spaces import LinearSpace, PaperSpace, Space
+from .routes import Route
+from .space import Position, Space
+from .spaces import LinearSpace, PaperSpace
 from .triangulation import Triangulation
 from .walk import DelaunayWalk
+from .way import Way
 
 __all__ = [
+    "PACES",
     "SPACES",
     "AnchoredSpace",
+    "Coordinates",
     "DelaunayWalk",
+    "Embedding",
     "LinearSpace",
+    "Numbers",
     "PaperSpace",
+    "Position",
     "Route",
+    "Scores",
     "Space",
     "Triangulation",
-    "anchored_scale",
-    "anchored_space",
+    "Way",
     "lengths",
     "make_space",
     "nearest_in_hull",
     "paced",
     "perceptual",
+    "route",
 ]

@@ -7,8 +7,8 @@ beside the highlight, one number per channel:
     y = (score_1, ..., score_k, body_r, body_g, body_b)
 
 Along a straight line in this space the body colour of the mix goes straight as well: brown to grey does not pass green.
-The scores are scaled together to unit variance, the body colours to `BODY_SCALE`: the scale decides which materials are
-near, not what is reproduced.
+The scores are scaled together to unit variance, the body colours to `BODY_SPREAD`: the scale decides which materials are
+near, not what is reproduced. Any other linear coordinates may stand beside these or in their place.
 
 Two recipes reproduce every place on the line from material A to material B: the Delaunay weights, which mix the
 materials nearest to it, and the two ends in plain proportion. The first passes through real materials and may wander in
@@ -21,25 +21,23 @@ A leg takes the largest b (of `SHARES`) whose path, in pictures of a lit sphere,
 the distance of its ends. ``detour`` = 1 gives the ends alone (or nearly), infinity the space alone.
 """
 
-from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from jaxtyping import Float64
 
-from .._types import Points
 from ..components import Pca
-from ..errors import OutsideHullError, SpaceError
-from ..library import Library
-from ..look import Looks, appearance, cielab_difference
-from ..recipes import Recipe
-from .hull import nearest_in_hull
-from .spaces import Leg, Space, interpolate
-from .triangulation import corners
-from .walk import DelaunayWalk
+from ..errors import SpaceError
+from ..library import Library, LibraryRef
+from ..look import Looks, appearance, body_colours, cielab_difference
+from ..tasks import HERE, Work
+from .chart import Chart
+from .coordinates import Coordinates, Group, Numbers, Scores
+from .space import Space
+from .way import Way
 
-BODY_SCALE = 0.3
+BODY_SPREAD = 0.3
 """Spread of the body colours, where that of the scores is 1."""
 DETOUR = 1.1
 """Largest length of a leg, as a multiple of the distance of its ends."""
@@ -48,38 +46,28 @@ SHARES = np.linspace(1, 0, 17)
 N_PICTURES = 33
 """Pictures that a leg is measured in."""
 THINNING = 4
-"""Every so many pixels of the basis images are enough to measure with."""
+"""Every so many pixels of the looks are enough to measure with."""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class AnchoredSpace(Space):
     """The anchored space of a library."""
 
-    library: str
-    names: tuple[str, ...]
-    coordinates: tuple[str, ...]
-    """What each coordinate is: ``score_1`` ..., ``body_r``, ``body_g``, ``body_b``, in 1/sr."""
-    points: Points
-    """Where each material is, shape (N, k + 3)."""
     detour: float
-    scale: Float64[np.ndarray, " d"]
-    """What the coordinates are multiplied by where distances count."""
-    _walk: DelaunayWalk
-    _images: Looks
+    _looks: Looks
     name = "anchored"
+    summary = "one recipe for all channels; keeps body colours on the straight way between them"
 
     @classmethod
     def fit(
         cls,
         library: Library,
-        pca: Pca,
-        images: Looks,
-        body: Float64[np.ndarray, "N 3"],
         *,
         n_components: int = 3,
         detour: float = DETOUR,
+        work: Work = HERE,
     ) -> "AnchoredSpace":
-        """The space of ``n_components`` joint scores and the body colours ``body`` of the materials, in 1/sr.
+        """The space of ``n_components`` joint scores and the body colours of the materials.
 
         Raises
         ------
@@ -90,121 +78,52 @@ class AnchoredSpace(Space):
             raise SpaceError(
                 f"a space of {n_components} components cannot be made: expected 0 or more."
             )
+        scores = Scores.joint(Pca.fit(library, work=work), n_components, spread=1.0)
+        groups = scores, body_group(body_colours(library, work=work))
+        looks = Looks.fit(library, work=work)
+        return cls.of(LibraryRef.of(library), Coordinates(groups), looks, detour=detour)
+
+    @classmethod
+    def of(
+        cls, library: LibraryRef, coordinates: Coordinates, looks: Looks, *, detour: float = DETOUR
+    ) -> "AnchoredSpace":
+        """The space of any linear ``coordinates`` of the materials, which ``looks`` shows.
+
+        Raises
+        ------
+        SpaceError
+            With a detour below 1.
+        """
         if not detour >= 1:
             raise SpaceError(
                 f"a detour of {detour:g} is shorter than the direct way: expected 1 or more."
             )
-        scores = pca.joint_scores(n_components)
-        points = np.concatenate([scores, body], axis=1)
-        scale = anchored_scale(points, scores.shape[1])
-        return cls(
-            library.name,
-            library.names,
-            (*(f"score_{i + 1}" for i in range(scores.shape[1])), "body_r", "body_g", "body_b"),
-            points,
-            detour,
-            scale,
-            DelaunayWalk.of(points * scale),
-            replace(images, planes=images.planes[..., ::THINNING]),
-        )
+        chart = Chart.of(coordinates)
+        return cls(library, looks.names, (chart,), detour, looks.thinned(THINNING))
 
-    def leg(self, start: int, stop: int) -> Leg:
-        path = self._walk.path(start, stop)
-        ends = corners(len(self.names), start, stop)
-        straight = interpolate(path.knots, np.array([0.0, 1.0]), ends)
-        share = self._share(Leg(path.knots, np.stack([path.weights, straight])))
-        weights = share * path.weights + (1 - share) * straight
-        return Leg(path.knots, np.stack([weights] * 3))
-
-    def recipe(
-        self, point: Mapping[str, float] | Float64[np.ndarray, " d"], *, clamp: bool = False
-    ) -> Recipe:
-        """The recipe of any point: the Delaunay weights of the materials around it.
-
-        Parameters
-        ----------
-        point : array of shape (d,), or mapping
-            Every coordinate, in the order or by the names of `coordinates`.
-        clamp : bool
-            Take the nearest point of the hull where the point is outside.
-
-        Raises
-        ------
-        OutsideHullError
-            When the point is outside the hull; the message has the distance and the nearest point.
-        """
-        x = self._coordinates_of(point) * self.scale
-        try:
-            weights = self._walk.weights(x)
-        except OutsideHullError:
-            weights = nearest_in_hull(self.points * self.scale, x)
-            if not clamp:
-                raise OutsideHullError(self._outside(x, weights)) from None
-        return Recipe.from_dense(self.library, self.names, np.stack([weights] * 3))
-
-    def neighbours(self, name: str, n: int = 8) -> list[tuple[str, float]]:
-        """The ``n`` materials nearest to one, with their distances in the scaled space, nearest first."""
-        scaled = self.points * self.scale
-        distances = np.linalg.norm(scaled - scaled[self.names.index(name)], axis=1)
-        nearest = distances.argsort(kind="stable")[1 : n + 1]
-        return [(self.names[i], float(distances[i])) for i in nearest]
+    def leg(self, start: int, stop: int) -> Way:
+        (chart,) = self.charts
+        winding = chart.way(start, stop)
+        straight = Way.between(start, stop, len(self.names)).at(winding.knots)
+        for share in SHARES:
+            way = Way(winding.knots, share * winding.weights + (1 - share) * straight)
+            leg = Way.of_channels([way])
+            if share == 0 or self._is_short(leg):
+                return leg
+        raise AssertionError  # the last share is 0
 
     def to_json(self) -> dict[str, Any]:
-        """The names of the coordinates and the place of each material."""
-        places = dict(zip(self.names, self.points.tolist(), strict=True))
-        return {
-            "format": 1,
-            "library": self.library,
-            "space": self.name,
-            "detour": self.detour,
-            "coordinates": list(self.coordinates),
-            "unit": "1/sr",
-            "points": places,
-        }
+        """The names of the coordinates, the point of each material, and the longest detour."""
+        return {**super().to_json(), "detour": self.detour}
 
-    def _share(self, ways: Leg) -> float:
-        """The largest share of the Delaunay weights whose path is short enough; ``ways`` holds it and the straight way."""
-        t = np.linspace(0, 1, N_PICTURES)
-        winding, straight = (
-            self._images.mix(np.stack([interpolate(t, ways.knots, way)] * 3))
-            for way in ways.weights
-        )
-        for share in SHARES[:-1]:
-            pictures = appearance(share * winding + (1 - share) * straight)
-            length = cielab_difference(pictures[1:], pictures[:-1]).sum()
-            if length <= self.detour * cielab_difference(pictures[0], pictures[-1]):
-                return float(share)
-        return 0.0
-
-    def _coordinates_of(self, point: Mapping[str, float] | np.ndarray) -> Float64[np.ndarray, " d"]:
-        if isinstance(point, Mapping):
-            missing = [name for name in self.coordinates if name not in point]
-            unknown = [name for name in point if name not in self.coordinates]
-            if missing or unknown:
-                raise SpaceError(
-                    f"the point lacks {missing} and has {unknown}: expected the coordinates {', '.join(self.coordinates)}."
-                )
-            point = np.array([point[name] for name in self.coordinates])
-        if len(point) != len(self.coordinates):
-            raise SpaceError(
-                f"the point has {len(point)} coordinates: expected {len(self.coordinates)}, {', '.join(self.coordinates)}."
-            )
-        return np.asarray(point, np.float64)
-
-    def _outside(self, x: Float64[np.ndarray, " d"], weights: Float64[np.ndarray, " N"]) -> str:
-        nearest = weights @ self.points
-        distance = np.linalg.norm(nearest * self.scale - x)
-        listed = ",".join(f"{value:.6g}" for value in nearest)
-        return (
-            f"the point is outside the hull of the {len(self.names)} materials, {distance:.3g} from it (materials are "
-            f"about 1 apart): no mix stands there. The nearest that does is {listed}; --clamp takes it."
-        )
+    def _is_short(self, leg: Way) -> bool:
+        weights = leg.at(np.linspace(0, 1, N_PICTURES))
+        pictures = appearance(self._looks.mix(weights, self.blend))
+        length = cielab_difference(pictures[1:], pictures[:-1]).sum()
+        return bool(length <= self.detour * cielab_difference(pictures[0], pictures[-1]))
 
 
-def anchored_scale(points: Points, n_components: int) -> Float64[np.ndarray, " d"]:
-    """What to multiply coordinates by: the scores together to spread 1, the body colours to `BODY_SCALE`."""
-    spread = np.square(points - points.mean(axis=0)).mean(axis=0)
-    scores, body = (
-        np.sqrt(part.sum()) or 1.0 for part in (spread[:n_components], spread[n_components:])
-    )
-    return np.array([1 / scores] * n_components + [BODY_SCALE / body] * 3)
+def body_group(body: Float64[np.ndarray, "N 3"]) -> Group:
+    """Body colours, in 1/sr, as coordinates."""
+    names = ("body_r", "body_g", "body_b")
+    return Numbers(label="Body colour", names=names, points=body, spread=BODY_SPREAD)

@@ -1,32 +1,25 @@
-"""From a space's name to the space."""
+"""From what a person asks for to spaces and routes."""
+
+from collections.abc import Mapping
+from functools import partial
 
 from ..components import Pca
 from ..errors import SpaceError
-from ..library import Library
-from ..look import Looks, body_colours
+from ..library import Library, open_library
+from ..look import Looks
 from ..tasks import HERE, Work
 from .anchored import DETOUR, AnchoredSpace
-from .spaces import LinearSpace, PaperSpace, Space
+from .pace import perceptual
+from .routes import Route
+from .space import Space
+from .spaces import LinearSpace, PaperSpace
 
-SPACES = ("anchored", "paper", "linear")
-
-
-def anchored_space(
-    library: Library,
-    *,
-    n_components: int = 3,
-    detour: float = DETOUR,
-    work: Work = HERE,
-) -> AnchoredSpace:
-    """The anchored space, fitted to ``library``."""
-    return AnchoredSpace.fit(
-        library,
-        Pca.fit(library, work=work),
-        Looks.fit(library, work=work),
-        body_colours(library, work=work),
-        n_components=n_components,
-        detour=detour,
-    )
+SPACES: Mapping[str, type[Space]] = {
+    kind.name: kind for kind in (AnchoredSpace, PaperSpace, LinearSpace)
+}
+"""By name, the default first."""
+PACES = ("perceptual", "uniform")
+"""How t is spaced on a route: by equal visible steps, or evenly, as the paper does."""
 
 
 def make_space(
@@ -39,6 +32,13 @@ def make_space(
 ) -> Space:
     """The space called ``name``, fitted to ``library``.
 
+    Parameters
+    ----------
+    n_components : int
+        Scores that span the space.
+    detour : float
+        Longest way of the anchored space, as a multiple of the direct one.
+
     Raises
     ------
     SpaceError
@@ -46,16 +46,64 @@ def make_space(
     """
     match name:
         case "anchored":
-            return anchored_space(
-                library,
-                n_components=n_components,
-                detour=detour,
-                work=work,
-            )
-        case "linear":
-            return LinearSpace(library.name, library.names)
+            return AnchoredSpace.fit(library, n_components=n_components, detour=detour, work=work)
         case "paper":
-            pca = Pca.fit(library, work=work)
-            return PaperSpace.fit(library, pca, n_components=n_components)
+            return PaperSpace.fit(library, Pca.fit(library, work=work), n_components=n_components)
+        case "linear":
+            return LinearSpace.of(library)
         case _:
             raise SpaceError(f"there is no space {name!r}: expected one of {', '.join(SPACES)}.")
+
+
+def route(
+    library: Library | str,
+    *stops: str,
+    space: Space | str = "anchored",
+    pace: str = "perceptual",
+    n_components: int = 3,
+    detour: float = DETOUR,
+    work: Work = HERE,
+) -> Route:
+    """The route through two or more materials of a library.
+
+    Parameters
+    ----------
+    library : Library or str
+        Open, or as `open_library` takes it.
+    stops : str
+        Names of materials, in turn.
+    space : Space or str
+        ``anchored``, straight in body colour and through real materials; ``paper``, the paper's; ``linear``, the ends alone;
+        or one that was made.
+    pace : str
+        ``perceptual``, equal visible steps; ``uniform``, the paper's.
+    n_components, detour
+        As `make_space` takes them.
+    work : Work
+        Where its tasks run, who sees how far it is, and where dear results are kept.
+
+    Examples
+    --------
+    >>> import halfway
+    >>> route = halfway.route("builtin:merl-abc", "teflon", "chrome", space="linear", pace="uniform")
+    >>> route.recipe(0.5)
+    Recipe('builtin:merl-abc', {'teflon': 0.5, 'chrome': 0.5})
+
+    Raises
+    ------
+    SpaceError
+        With fewer than two stops, one that follows itself, or no such space or pace.
+    LibraryError
+        When the library has no material of a name.
+    """
+    opened = open_library(library) if isinstance(library, str) else library
+    if pace not in PACES:
+        raise SpaceError(f"there is no pace {pace!r}: expected {' or '.join(PACES)}.")
+    # A mistake is told before a space is fitted.
+    for stop in stops:
+        opened.index(stop)
+    Route.through(LinearSpace.of(opened), stops)
+    fit = partial(make_space, n_components=n_components, detour=detour, work=work)
+    fitted = fit(space, opened) if isinstance(space, str) else space
+    way = Route.through(fitted, stops)
+    return perceptual(way, Looks.fit(opened, work=work)) if pace == "perceptual" else way

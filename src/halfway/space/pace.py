@@ -18,7 +18,8 @@ import numpy as np
 from jaxtyping import Float64
 
 from ..look import Lab, Looks, appearance, ciede2000_difference
-from .route import Route
+from .routes import Route
+from .way import Way
 
 FINEST = 1 / 200
 """Largest step, as a share of the route's length, between places at which the length is measured."""
@@ -31,7 +32,7 @@ LEAST = 1e-9
 THINNING = 4
 """Every so many pixels of the basis images are enough to measure with."""
 
-Places = Float64[np.ndarray, "..."]
+Shares = Float64[np.ndarray, "..."]
 """Shares of a way, ascending."""
 
 
@@ -40,10 +41,10 @@ def perceptual(route: Route, images: Looks) -> Route:
     return paced(route, *lengths(route, images))
 
 
-def lengths(route: Route, images: Looks) -> tuple[Places, Places]:
+def lengths(route: Route, images: Looks) -> tuple[Shares, Shares]:
     """Some t, the knots among them, and the length of the route from its start to each."""
-    images = replace(images, planes=images.planes[..., ::THINNING])
-    t = np.union1d(route.knots, np.linspace(0, 1, N_START))
+    images = images.thinned(THINNING)
+    t = np.union1d(route.way.knots, np.linspace(0, 1, N_START))
     looks = _looks(route, images, t)
     steps = _apart(looks[:-1], looks[1:])
     for _ in range(N_ROUNDS):
@@ -60,19 +61,19 @@ def lengths(route: Route, images: Looks) -> tuple[Places, Places]:
     return t, np.append(0.0, np.cumsum(steps))
 
 
-def paced(route: Route, t: Places, length: Places) -> Route:
+def paced(route: Route, t: Shares, length: Shares) -> Route:
     """The same way, equal lengths in equal times; ``length`` has been covered at each ``t``."""
     u = t
     if length[-1]:
         u = np.append(0.0, np.cumsum(np.diff(length) + LEAST * length[-1]))
         u /= u[-1]
     stop_ts = np.interp(route.stop_ts, t, u)
-    return replace(route, pace="perceptual", knots=u, weights=route.at(t), stop_ts=stop_ts)
+    return replace(route, pace="perceptual", way=Way(u, route.at(t)), stop_ts=stop_ts)
 
 
-def _looks(route: Route, images: Looks, t: Places) -> Lab:
-    return appearance(images.mix(route.at(t)))
+def _looks(route: Route, images: Looks, t: Shares) -> Lab:
+    return appearance(images.mix(route.at(t), route.blend))
 
 
-def _apart(a: Lab, b: Lab) -> Places:
+def _apart(a: Lab, b: Lab) -> Shares:
     return np.asarray(ciede2000_difference(a, b), np.float64)

@@ -18,9 +18,7 @@ Qhull runs with its default options: joggled input (QJ) always succeeds, with ga
 """
 
 import warnings
-from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 from jaxtyping import Bool, Float64, Int
@@ -30,6 +28,7 @@ from scipy.spatial import Delaunay, KDTree
 
 from .._types import Points
 from ..errors import DegenerateSpaceWarning, OutsideHullError
+from .way import Way
 
 MERGE = 1e-9
 """Points closer than this share of the largest extent are one."""
@@ -39,29 +38,6 @@ INSIDE = 1e-9
 """A weight above minus this is 0: rounding, not a place outside."""
 SINGULAR = 1e12
 """Condition number above which a simplex is flat."""
-
-
-class Path(NamedTuple):
-    """Weights over all points along a straight line, linear between the knots."""
-
-    knots: Float64[np.ndarray, " n_knots"]  # ascending from 0 to 1
-    weights: Float64[np.ndarray, "n_knots n_points"]
-
-    @classmethod
-    def between(
-        cls, start: int, stop: int, n_points: int, crossings: Sequence[tuple[float, np.ndarray]]
-    ) -> "Path":
-        """The path through these places from one point to another, both of which it meets exactly."""
-        first, last = corners(n_points, start, stop)
-        knots = np.array([0.0, *(t for t, _ in crossings), 1.0])
-        return cls(knots, np.stack([first, *(weights for _, weights in crossings), last]))
-
-
-def corners(n_points: int, start: int, stop: int) -> Float64[np.ndarray, "2 n_points"]:
-    """The weights at two of the points: all on the one, all on the other."""
-    weights = np.zeros((2, n_points))
-    weights[[0, 1], [start, stop]] = 1.0
-    return weights
 
 
 @dataclass(frozen=True, eq=False)
@@ -109,10 +85,10 @@ class Triangulation:
             raise OutsideHullError(outside_message(len(self.points)))
         return self._scatter(best, barycentric[best])
 
-    def path(self, start: int, stop: int) -> Path:
+    def way(self, start: int, stop: int) -> Way:
         """The weights along the straight line from point ``start`` to point ``stop``, both ends exact."""
         crossings = self._crossings(self.points[start], self.points[stop])
-        return Path.between(start, stop, len(self.points), crossings)
+        return Way.between(start, stop, len(self.points), crossings)
 
     def _crossings(
         self, p: Float64[np.ndarray, " k"], q: Float64[np.ndarray, " k"]

@@ -26,7 +26,8 @@ from jaxtyping import Float64, Int
 
 from .._types import Points
 from ..errors import OutsideHullError
-from .triangulation import INSIDE, Path, affine_frame, outside_message, representatives
+from .triangulation import INSIDE, affine_frame, outside_message, representatives
+from .way import Way
 
 PIVOT = 1e-7
 """A point nearer to a face than this share of its opposite vertex's distance does not count as beyond it."""
@@ -84,10 +85,10 @@ class DelaunayWalk:
         barycentric, *_ = np.linalg.lstsq(self._lifted[:, vertices], target)
         return self._scatter(vertices, barycentric)
 
-    def path(self, start: int, stop: int) -> Path:
+    def way(self, start: int, stop: int) -> Way:
         """The weights along the straight line from point ``start`` to point ``stop``, both ends exact."""
         crossings = self._crossings(self._flat(self.points[start]), self._flat(self.points[stop]))
-        return Path.between(start, stop, len(self.points), crossings)
+        return Way.between(start, stop, len(self.points), crossings)
 
     def _crossings(
         self, p: Float64[np.ndarray, " d_1"], q: Float64[np.ndarray, " d_1"]

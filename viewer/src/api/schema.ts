@@ -51,7 +51,7 @@ export interface LibrarySummary {
 }
 
 /** The materials as points in up to three dimensions, to be looked at. */
-export interface Embedding {
+export interface EmbeddingView {
   readonly name: string;
   readonly channel: "r" | "g" | "b" | "all";
   readonly axes: readonly string[];
@@ -62,7 +62,8 @@ export interface Embedding {
 /** A space, to be looked at: one embedding, or one per channel. */
 export interface SpaceView {
   readonly name: string;
-  readonly embeddings: readonly Embedding[];
+  readonly has_points: boolean;
+  readonly embeddings: readonly EmbeddingView[];
 }
 
 /** Weights at the knots of a route, per channel: ``[knot][name]``. */
@@ -98,14 +99,14 @@ export interface RecipeDocument {
   readonly weights: ChannelWeights | Readonly<Record<string, number>>;
 }
 
-/** A free place in a space: the coordinates of its embeddings, one embedding after another. */
-export interface Place {
+/** A point of a space: the coordinates of its embeddings, one embedding after another. */
+export interface Point {
   readonly space: string;
   readonly point: readonly number[];
 }
 
-/** The material at a place. */
-export interface PlaceView {
+/** The material at a point of a space. */
+export interface PositionView {
   readonly recipe: RecipeDocument;
   readonly point: readonly number[];
   readonly inside: boolean;

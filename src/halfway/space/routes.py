@@ -10,11 +10,13 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
-from jaxtyping import Float64
+from jaxtyping import Float64, Int
 
 from ..errors import SpaceError
-from ..recipes import Recipe
-from .spaces import Space, interpolate
+from ..library import LibraryRef
+from ..recipes import Blend, Recipe
+from .space import Space
+from .way import Way
 
 FORMAT = 1
 
@@ -25,26 +27,25 @@ class Route:
 
     Examples
     --------
-    >>> from halfway import LinearSpace, Route, open_library
-    >>> library = open_library("builtin:merl-abc")
-    >>> space = LinearSpace(library.name, library.names)
-    >>> route = Route.through(space, ["teflon", "gold-paint"])
+    >>> import halfway
+    >>> library = halfway.open_library("builtin:merl-abc")
+    >>> route = halfway.route(library, "teflon", "gold-paint", space="linear", pace="uniform")
     >>> route.recipe(0.25).to_json()["weights"]
     {'gold-paint': 0.25, 'teflon': 0.75}
     """
 
-    library: str
+    library: LibraryRef
     space: str
     pace: str
     stops: tuple[str, ...]
     names: tuple[str, ...]
     """All materials of the library."""
-    knots: Float64[np.ndarray, " n_knots"]
-    """Ascending from 0 to 1."""
-    weights: Float64[np.ndarray, "3 n_knots N"]
-    """At the knots; linear between them."""
+    way: Way
+    """The weights of all materials, for each channel."""
     stop_ts: Float64[np.ndarray, " n_stops"]
     """The t of each stop, ascending from 0 to 1."""
+    blend: Blend
+    """How its recipes are mixed."""
 
     @classmethod
     def through(cls, space: Space, stops: Sequence[str]) -> "Route":
@@ -55,25 +56,21 @@ class Route:
         SpaceError
             With fewer than two stops, a stop that follows itself, or one that the library does not have.
         """
-        _check_stops(space, stops)
-        indices = [space.names.index(stop) for stop in stops]
-        legs = [space.leg(a, b) for a, b in pairwise(indices)]
-        # The last knot of a leg is the first of the next.
-        knots = [(i + leg.knots[:-1]) / len(legs) for i, leg in enumerate(legs)]
-        weights = [leg.weights[:, :-1] for leg in legs]
+        _check_stops(stops)
+        legs = [space.leg(a, b) for a, b in pairwise(map(space.index, stops))]
         return cls(
             space.library,
             space.name,
             "uniform",
             tuple(stops),
             space.names,
-            np.append(np.concatenate(knots), 1.0),
-            np.concatenate([*weights, legs[-1].weights[:, -1:]], axis=1),
+            Way.chain(legs),
             np.linspace(0, 1, len(stops)),
+            space.blend,
         )
 
     def __repr__(self) -> str:
-        return f"Route({' to '.join(self.stops)}, {self.space}, {self.pace} pace, {self.library!r})"
+        return f"Route({' to '.join(self.stops)}, {self.space}, {self.pace} pace, {self.library.name!r})"
 
     def steps(self, n: int) -> list[float]:
         """``n`` values of t from 0 to 1: every stop, and each leg evenly, as many steps as its share of t.
@@ -92,7 +89,7 @@ class Route:
 
     def at(self, t: Float64[np.ndarray, " n"]) -> Float64[np.ndarray, "3 n N"]:
         """Weights of all materials at each t in [0, 1]."""
-        return interpolate(t, self.knots, self.weights)
+        return self.way.at(t)
 
     def recipe(self, t: float) -> Recipe:
         """The recipe at one t."""
@@ -113,22 +110,31 @@ class Route:
                 f"t = {outside[0]:g} is off the route: expected 0 (first stop) to 1 (last stop)."
             )
         # Of a large library a route touches a few dozen materials.
-        used = np.flatnonzero(self.weights.any(axis=(0, 1)))
-        names = tuple(self.names[i] for i in used)
-        weights = np.moveaxis(interpolate(ts, self.knots, self.weights[..., used]), 1, 0)
-        return [Recipe.from_dense(self.library, names, w) for w in weights]
+        used = self.used()
+        names = [self.names[i] for i in used]
+        weights = Way(self.way.knots, self.way.weights[..., used]).at(ts)
+        return [
+            Recipe.from_dense(self.library, names, w, self.blend)
+            for w in np.moveaxis(weights, 1, 0)
+        ]
+
+    def used(self) -> Int[np.ndarray, " n_used"]:
+        """Indices of the materials that carry weight anywhere on the route."""
+        return np.flatnonzero(self.way.weights.any(axis=(0, 1)))
 
     def to_json(self, t: Sequence[float]) -> dict[str, Any]:
         """The document ``recipes.json``: the recipes at each t, and where they come from."""
         recipes = zip(t, self.recipes(t), strict=True)
         return {
             "format": FORMAT,
-            "library": self.library,
+            "library": self.library.name,
             "space": self.space,
             "pace": self.pace,
-            "blend": "linear",
+            "blend": str(self.blend),
             "stops": list(self.stops),
             "recipes": [{"t": float(x), "weights": r.to_json()["weights"]} for x, r in recipes],
+            "library_address": self.library.address,
+            "library_checksum": self.library.checksum,
         }
 
 
@@ -140,7 +146,7 @@ def _rounded(borders: Float64[np.ndarray, " n_stops"]) -> Float64[np.ndarray, " 
     return whole
 
 
-def _check_stops(space: Space, stops: Sequence[str]) -> None:
+def _check_stops(stops: Sequence[str]) -> None:
     if len(stops) < 2:
         raise SpaceError(
             f"a route with {len(stops)} stop goes nowhere: name at least two materials."
@@ -148,6 +154,3 @@ def _check_stops(space: Space, stops: Sequence[str]) -> None:
     for stop, following in pairwise(stops):
         if stop == following:
             raise SpaceError(f"{stop} follows itself on this route: name each stop once in a row.")
-    for stop in stops:
-        if stop not in space.names:
-            raise SpaceError(f"{stop!r} is not a material of {space.library}.")

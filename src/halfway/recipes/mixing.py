@@ -7,6 +7,7 @@ negative: a mix of sound materials is sound. The truncated PCA is something else
 """
 
 from collections import OrderedDict
+from collections.abc import Mapping
 from functools import partial
 from threading import Lock
 from typing import Any
@@ -16,7 +17,8 @@ import numpy as np
 from .._types import Table
 from ..brdf import TabularBrdf
 from ..errors import LibraryError, RecipeError
-from ..library import Library
+from ..library import Library, open_library
+from .blend import Blend
 from .recipe import Recipe
 
 
@@ -44,9 +46,11 @@ class Mixer:
         grid = self._library.grid
         rows = self._rows_of(recipe)
         values = np.empty((3, grid.size), np.float32)
-        for out, channel, weights in zip(values, range(3), recipe.weights, strict=True):
-            used = np.flatnonzero(weights)
-            _weighted_sum(out, [rows[i][channel] for i in used], weights[used])
+        match recipe.blend:
+            case Blend.LINEAR:
+                for out, channel, weights in zip(values, range(3), recipe.weights, strict=True):
+                    used = np.flatnonzero(weights)
+                    _weighted_sum(out, [rows[i][channel] for i in used], weights[used])
         return TabularBrdf(values.reshape(3, *grid.shape), grid, name=_title(recipe))
 
     def _rows_of(self, recipe: Recipe) -> list[Table]:
@@ -66,9 +70,40 @@ class Mixer:
         return self._rows[name]
 
 
-def mix(library: Library, recipe: Recipe) -> TabularBrdf:
-    """The table of a recipe: the weighted sum of the library's full tables."""
-    return Mixer(library).mix(recipe)
+def mix(library: Library | str, recipe: Recipe | Mapping[str, Any] | str) -> TabularBrdf:
+    """The table of a recipe, mixed from full tables of the library.
+
+    Parameters
+    ----------
+    library : Library or str
+        Open, or as `open_library` takes it.
+    recipe : Recipe, mapping or str
+        Or its weights: ``{"gold-paint": 0.7, "teflon": 0.3}``, ``"gold-paint=0.7, teflon=0.3"``.
+
+    Examples
+    --------
+    >>> import halfway
+    >>> table = halfway.mix("builtin:merl-abc", "gold-paint=0.7, teflon=0.3")
+    >>> table.name
+    'mix of 2'
+
+    Raises
+    ------
+    RecipeError
+        When the weights are no recipe, or of a material that the library does not have.
+    """
+    opened = open_library(library) if isinstance(library, str) else library
+    return Mixer(opened).mix(_to_recipe(opened, recipe))
+
+
+def _to_recipe(library: Library, recipe: Recipe | Mapping[str, Any] | str) -> Recipe:
+    match recipe:
+        case Recipe():
+            return recipe
+        case str():
+            return Recipe.from_text(library, recipe)
+        case _:
+            return Recipe.of(library, recipe)
 
 
 def _title(recipe: Recipe) -> str:

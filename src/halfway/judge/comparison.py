@@ -1,0 +1,27 @@
+"""All spaces of a library, measured side by side."""
+
+from typing import Any
+
+from ..library import Library
+from ..space import SPACES, make_space
+from ..tasks import HERE, Work
+from .evaluation import Bench, evaluate, sample_pairs
+from .leave_one_out import leave_one_out
+
+
+def compare_spaces(
+    library: Library, *, n_pairs: int | None = None, seed: int = 0, work: Work = HERE
+) -> list[dict[str, Any]]:
+    """Every space measured on the same pairs of materials (None: all), and leaving out each material in turn, as JSON."""
+    bench = Bench.fit(library, work=work)
+    pairs = sample_pairs(len(library), n_pairs, seed=seed)
+    measured: list[dict[str, Any]] = []
+    for name in SPACES:
+        space = make_space(name, library, work=work)
+        measures = {"seed": seed} | evaluate(space, bench, pairs, work=work).to_json()
+        if space.charts:
+            left_out = leave_one_out(space, bench, work=work).to_json()
+            del left_out["space"]
+            measures["leave_one_out"] = left_out
+        measured.append(measures)
+    return measured
