@@ -13,6 +13,7 @@ rest is written. Where it says something else, the old route's tables go first.
 import hashlib
 import json
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -24,7 +25,7 @@ from ..brdf import TabularBrdf
 from ..errors import OutputError
 from ..files import replacing
 from ..formats import merl_bytes, write_brdf
-from ..library import DESCRIPTION, Library
+from ..library import DESCRIPTION, Library, LibraryRef
 from ..locations import Location, absolute, name_in
 from ..recipes import Mixer, Recipe
 from ..space import Route
@@ -72,7 +73,8 @@ def write_route(
         raise OutputError(
             f"{folder} holds a library: expected a folder of the route's own. Choose another with -o."
         )
-    document = route.to_json(ts)
+    # The library may have moved since the route was made.
+    document = replace(route, library=LibraryRef.of(library)).to_json(ts)
     text = json.dumps(document)
     recipes = route.recipes(ts)
     tables = _tables(format, recipes, library)
