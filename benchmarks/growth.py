@@ -22,7 +22,8 @@ from halfway.components.gram import Gram
 from halfway.components.gram_cache import kept_gram
 from halfway.components.sketch import sketch
 from halfway.models import synthetic
-from halfway.space import DelaunayWalk, PaperSpace, Route
+from halfway.space import PaperSpace, Route
+from halfway.space.walk import DelaunayWalk
 from halfway.tasks import Work
 def peak():
     lines = Path("/proc/self/status").read_text().splitlines()

@@ -17,13 +17,13 @@ from halfway.look.appearance import appearance, ciede2000_difference, cielab_dif
 from halfway.recipes import Blend
 from halfway.space import (
     AnchoredSpace,
-    DelaunayWalk,
     LinearSpace,
     Triangulation,
     make_space,
     perceptual,
 )
 from halfway.space.hull import nearest_in_hull
+from halfway.space.walk import DelaunayWalk
 
 GRID = Grid.merl(8, 6, 10)
 

@@ -12,7 +12,8 @@ from strategies import convex_weights, points
 
 from halfway.components import Pca
 from halfway.errors import DegenerateSpaceWarning, OutsideHullError
-from halfway.space import DelaunayWalk, PaperSpace, Triangulation
+from halfway.space import PaperSpace, Triangulation
+from halfway.space.walk import DelaunayWalk
 
 SQUARE = np.array([[0.0, 0], [2, 0], [2, 2], [0, 2], [1, 1]])
 """A square and its centre: four triangles."""

@@ -3,14 +3,12 @@
 from .anchored import AnchoredSpace
 from .coordinates import Coordinates, Numbers, Scores
 from .embedding import Embedding
-from .hull import nearest_in_hull
 from .making import PACES, SPACES, make_space, route
 from .pace import lengths, paced, perceptual
 from .routes import Route
 from .space import Position, Space
 from .spaces import LinearSpace, PaperSpace
 from .triangulation import Triangulation
-from .walk import DelaunayWalk
 from .way import Way
 
 __all__ = [
@@ -18,7 +16,6 @@ __all__ = [
     "SPACES",
     "AnchoredSpace",
     "Coordinates",
-    "DelaunayWalk",
     "Embedding",
     "LinearSpace",
     "Numbers",
@@ -31,7 +28,6 @@ __all__ = [
     "Way",
     "lengths",
     "make_space",
-    "nearest_in_hull",
     "paced",
     "perceptual",
     "route",
