@@ -1,10 +1,11 @@
 """BRDFs: what every material can do, the tabular kind, and how two of them differ."""
 
-from .albedo import directional_albedo, hemisphere
+from .albedo import directional_albedo
 from .brdf import CELLS_IN_CACHE, Brdf, IsotropicModel
 from .check import ValidityCard, check
 from .fresnel import fresnel
-from .metrics import EPSILON, MAPPINGS, Difference, Metric, comparison_cells, difference
+from .metrics import EPSILON, MAPPINGS, Difference, Metric, difference
+from .quadrature import HalfVectors, comparison_cells, spread_angles
 from .quality import Quality, lit_sphere, quality
 from .repair import Repaired, repair
 from .table import TabularBrdf, tabulate
@@ -15,6 +16,7 @@ __all__ = [
     "MAPPINGS",
     "Brdf",
     "Difference",
+    "HalfVectors",
     "IsotropicModel",
     "Metric",
     "Quality",
@@ -26,9 +28,9 @@ __all__ = [
     "difference",
     "directional_albedo",
     "fresnel",
-    "hemisphere",
     "lit_sphere",
     "quality",
     "repair",
+    "spread_angles",
     "tabulate",
 ]

@@ -14,7 +14,7 @@ from jaxtyping import Float64
 
 from .._types import Indices, Mask
 from ..halfdiff import Grid
-from .albedo import hemisphere
+from .quadrature import HalfVectors
 from .table import TabularBrdf
 
 N_THETA_H = 360
@@ -68,16 +68,11 @@ def _of_grid(grid: Grid, theta_i: tuple[float, ...]) -> AlbedoOperator:
 
 
 def _row(grid: Grid, measured: Mask, theta_i: float) -> tuple[Indices, Float64[np.ndarray, "_"]]:
-    h, dh = hemisphere(N_THETA_H, N_PHI_H)
-    wi = np.array([np.sin(theta_i), 0.0, np.cos(theta_i)])
-    cos_d = h @ wi
-    wo = 2 * cos_d[:, None] * h - wi
-    lit = (cos_d > 0) & (wo[:, 2] > 0)
-    wo, area = wo[lit], (4 * cos_d * dh)[lit] * wo[lit, 2]
-    corners = grid.multilinear(np.broadcast_to(wi, wo.shape), wo)
+    rule = HalfVectors.at(theta_i, N_THETA_H, N_PHI_H)
+    corners = grid.multilinear(rule.fixed, rule.other)
     weights = np.where(measured[corners.cells], corners.weights, 0)
     total = weights.sum(axis=0)
     shares = np.divide(weights, total, out=np.zeros_like(weights), where=total > 0)
-    sums = np.bincount(corners.cells.ravel(), (area * shares).ravel(), minlength=grid.size)
+    sums = np.bincount(corners.cells.ravel(), (rule.weights * shares).ravel(), minlength=grid.size)
     cells = np.flatnonzero(sums)
     return cells, sums[cells]

@@ -22,6 +22,7 @@ from ..colour import LUMINANCE
 from ..halfdiff import MERL, Grid, HalfDiff, from_half_diff
 from .albedo_operator import albedos
 from .brdf import Brdf
+from .quadrature import spread_angles
 from .table import TabularBrdf, tabulate
 
 RECIPROCITY_TOLERANCE = 0.01
@@ -155,15 +156,8 @@ def _broken(card: ValidityCard) -> Iterator[str]:
 
 
 def _pairs() -> tuple[Directions, Directions]:
-    """Pairs above the horizon, spread evenly over the positions of a MERL table by an additive recurrence.
-
-    M. Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018: powers of 1/1.22074, for three dimensions.
-    """
-    position = np.outer(np.arange(1, _N_PAIRS + 1), 1.2207440846057596 ** -np.arange(1.0, 4)) % 1
-    theta_h, theta_d, phi_d = (
-        axis.to_angle(axis.size * x) for axis, x in zip(MERL.axes, position.T, strict=True)
-    )
-    wi, wo = from_half_diff(HalfDiff(theta_h, np.zeros_like(theta_h), theta_d, phi_d))
+    """Pairs above the horizon."""
+    wi, wo = from_half_diff(spread_angles(_N_PAIRS))
     lit = (wi[:, 2] > 0) & (wo[:, 2] > 0)
     return wi[lit], wo[lit]
 

@@ -22,6 +22,7 @@ import numpy as np
 from .._types import Directions
 from ..brdf import Brdf, Quality, lit_sphere, quality
 from ..colour import LUMINANCE
+from ..halfdiff import reflect
 from .rgl import RglBrdf
 from .rgl_normals import Normals
 from .rgl_reader import from_fields
@@ -142,7 +143,7 @@ def _slice(
     u_theta, u_phi = warp.sample(s_theta, s_phi, i_slice)
     i = np.array([np.sin(theta_i), 0.0, np.cos(theta_i)])
     m = _direction(np.pi / 2 * u_theta**2, np.pi * (2 * u_phi - 1))
-    o = 2 * (m @ i)[:, None] * m - i
+    o = reflect(i, m, m @ i)
     values = brdf.eval(o, np.broadcast_to(i, o.shape))
     known = (o[:, 2] > _LEAST_COSINE) & (m @ i > 0) & np.isfinite(values).all(axis=1)
     scale = o[:, 2] * 4 * normals.area_at(theta_i) / normals.density_at(u_theta)

@@ -53,6 +53,11 @@ def cosines(theta_h: Angle, theta_d: Angle, phi_d: Angle) -> tuple[Angle, Angle]
     return along - across, along + across
 
 
+def reflect(v: Directions, h: Directions, cos_d: Angle) -> Directions:
+    """The directions on the other side of half vectors: ``2 cos_d h - v`` with ``cos_d = v . h``, known to whoever asks."""
+    return 2 * cos_d[..., None] * h - v
+
+
 def _to_polar(v: Directions) -> tuple[Angle, Angle]:
     x, y, z = np.moveaxis(v, -1, 0)
     # arctan2 keeps full precision near the pole, where arccos(z) loses half the digits.
