@@ -12,7 +12,7 @@ from collections.abc import Callable
 import numpy as np
 
 from .._types import Angle, Directions, Values
-from .brdf import Brdf
+from .brdf import Brdf, require_isotropic
 from .quadrature import HalfVectors
 
 
@@ -27,7 +27,14 @@ def directional_albedo(
 
     Unmeasured values count as 0. ``n_theta_h`` and ``n_phi_h`` are the nodes of the midpoint rule. A function
     ``(wi, wo) -> values`` may stand in for a BRDF.
+
+    Raises
+    ------
+    AnisotropyError
+        When the BRDF depends on the light's azimuth.
     """
+    if isinstance(brdf, Brdf):
+        require_isotropic(brdf, "its albedo")
     evaluate = brdf.eval if isinstance(brdf, Brdf) else brdf
     rules = (HalfVectors.at(theta, n_theta_h, n_phi_h) for theta in np.ravel(theta_i))
     albedos = np.stack([_albedo(evaluate, rule) for rule in rules])

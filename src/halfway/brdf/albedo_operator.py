@@ -14,6 +14,7 @@ from jaxtyping import Float64
 
 from .._types import Indices, Mask
 from ..halfdiff import Grid
+from .brdf import require_isotropic
 from .quadrature import HalfVectors
 from .table import TabularBrdf
 
@@ -31,7 +32,14 @@ class AlbedoOperator:
 
     @classmethod
     def of(cls, grid: Grid, measured: Mask, theta_i: Float64[np.ndarray, " n"]) -> "AlbedoOperator":
-        """The operator for tables whose measured cells are ``measured``, shape `grid.shape`."""
+        """The operator for tables whose measured cells are ``measured``, shape `grid.shape`.
+
+        Raises
+        ------
+        AnisotropyError
+            When tables on the grid depend on the light's azimuth.
+        """
+        require_isotropic(grid, "its albedo", name=f"a table on a grid of {grid} cells")
         rows = [_row(grid, measured.ravel(), float(theta)) for theta in theta_i]
         return cls(
             theta_i, tuple(cells for cells, _ in rows), tuple(weights for _, weights in rows)

@@ -21,7 +21,7 @@ from .._types import Directions, Table, Values
 from ..colour import LUMINANCE
 from ..halfdiff import MERL, Grid, HalfDiff, from_half_diff
 from .albedo_operator import albedos
-from .brdf import Brdf
+from .brdf import Brdf, require_isotropic
 from .quadrature import spread_angles
 from .table import TabularBrdf, tabulate
 
@@ -103,7 +103,14 @@ class ValidityCard:
 
 
 def check(brdf: Brdf, *, grid: Grid = MERL) -> ValidityCard:
-    """The validity card of a BRDF; one that is no table is looked at on ``grid`` and at pairs in between."""
+    """The validity card of a BRDF; one that is no table is looked at on ``grid`` and at pairs in between.
+
+    Raises
+    ------
+    AnisotropyError
+        When it depends on phi_h.
+    """
+    require_isotropic(brdf, "its check")
     table = brdf if isinstance(brdf, TabularBrdf) else tabulate(brdf, grid)
     measured = ~np.isnan(table.values).any(axis=0)
     mask = table.grid.mask()

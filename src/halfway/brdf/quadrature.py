@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 from jaxtyping import Float64
 
-from .._types import Angle, Directions, Mask
+from .._types import Directions, Mask
 from ..halfdiff import MERL, Grid, HalfDiff, cosines, reflect
 
 GRAZING_DEGREES = 80.0
@@ -27,8 +27,8 @@ class HalfVectors(NamedTuple):
     fixed: Directions
     """In the plane of incidence, x >= 0; the same at each node."""
     other: Directions
-    cos_d: Angle
-    dh: Angle
+    cos_d: Float64[np.ndarray, " n"]
+    dh: Float64[np.ndarray, " n"]
     """Solid angle of the half vectors that a node stands for."""
 
     @classmethod
@@ -45,12 +45,12 @@ class HalfVectors(NamedTuple):
         return cls(h[lit], np.broadcast_to(fixed, other.shape), other, cos_d[lit], dh[lit])
 
     @property
-    def weights(self) -> Angle:
+    def weights(self) -> Float64[np.ndarray, " n"]:
         """Solid angle of the other direction times its cosine."""
         return 4 * self.cos_d * self.dh * self.other[:, 2]
 
 
-def hemisphere(n_theta: int, n_phi: int) -> tuple[Directions, Angle]:
+def hemisphere(n_theta: int, n_phi: int) -> tuple[Directions, Float64[np.ndarray, " n"]]:
     """Nodes, shape (n, 3), and solid angles of a midpoint rule with square-root spaced theta."""
     edges = np.pi / 2 * (np.arange(n_theta + 1) / n_theta) ** 2
     theta = np.pi / 2 * ((np.arange(n_theta) + 0.5) / n_theta) ** 2

@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from jaxtyping import Float32, Float64
 
-from ..brdf import MAPPINGS, comparison_cells
+from ..brdf import MAPPINGS, quadrature
 from ..errors import LibraryError
 from ..library import (
     SUFFIX,
@@ -204,7 +204,7 @@ def _compared(library: Library, compact: Library, block: slice) -> _Compared:
     p, q = p[..., kept].astype(np.float64), q[..., kept].astype(np.float64)
     centred = p - p.mean(axis=1, keepdims=True)
     solid_angle, cos_i, cos_o, grazing = (
-        part.ravel()[block][kept] for part in comparison_cells(library.grid)
+        part.ravel()[block][kept] for part in quadrature.comparison_cells(library.grid)
     )
     weights = np.where(grazing, 0.0, solid_angle)
     relative = MAPPINGS["log-relative"]

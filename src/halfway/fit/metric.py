@@ -21,7 +21,7 @@ import numpy as np
 from jaxtyping import Bool, Float64
 
 from .._types import Directions
-from ..brdf import Brdf, HalfVectors
+from ..brdf import Brdf, quadrature, require_isotropic
 from ..errors import FormatError
 from ..halfdiff import HalfDiff, to_half_diff
 from .model import AnalyticModel, Colour, Vector
@@ -71,9 +71,12 @@ class Target(NamedTuple):
 
         Raises
         ------
+        AnisotropyError
+            When it depends on phi_h.
         FormatError
             When the material is measured nowhere the metric looks.
         """
+        require_isotropic(brdf, "its fit", name=name)
         pairs = comparison_pairs()
         samples = brdf.eval(pairs.wi, pairs.wo).T
         known = np.asarray(np.isfinite(samples).all(axis=0))
@@ -107,7 +110,8 @@ def comparison_pairs() -> Pairs:
     """The pairs of directions and their weights."""
     theta_o, least_cosine = np.radians(VIEWS_DEGREES), np.cos(np.radians(GRAZING_DEGREES))
     views = [
-        HalfVectors.at(theta, N_THETA_H, N_PHI_H, least_cosine=least_cosine) for theta in theta_o
+        quadrature.HalfVectors.at(theta, N_THETA_H, N_PHI_H, least_cosine=least_cosine)
+        for theta in theta_o
     ]
     view = np.repeat(np.arange(len(views)), [len(rule.dh) for rule in views])
     h, wo, wi, cos_d, dh = (np.concatenate(part) for part in zip(*views, strict=True))

@@ -27,7 +27,7 @@ from functools import cached_property, reduce
 import numpy as np
 
 from .._types import Directions, Part, Table, Values
-from ..brdf import Brdf, spread_angles
+from ..brdf import Brdf, quadrature
 from ..halfdiff import Grid, from_half_diff
 from .rgl_warp import Interpolant, Warp, slices
 
@@ -115,7 +115,7 @@ class RglBrdf(Brdf):
         """How much the values vary as the surface turns: standard deviation over mean, over pairs of directions; 0 if isotropic."""
         if self.is_isotropic:
             return 0.0
-        i, o = from_half_diff(spread_angles(_N_PAIRS))
+        i, o = from_half_diff(quadrature.spread_angles(_N_PAIRS))
         values = np.stack([self.eval(_turned(i, angle), _turned(o, angle)) for angle in _TURNS])
         return float(values.std(axis=0).sum() / np.abs(values.mean(axis=0)).sum())
 
@@ -167,6 +167,10 @@ class _TurnedMean(Brdf):
     """The mean of a material over turns about its normal."""
 
     material: RglBrdf
+
+    @property
+    def is_isotropic(self) -> bool:
+        return True  # up to what is between the turns
 
     def eval(self, wi: Directions, wo: Directions) -> Values:
         turned = (self.material.eval(_turned(wi, angle), _turned(wo, angle)) for angle in _TURNS)

@@ -20,7 +20,7 @@ from typing import NamedTuple
 import numpy as np
 
 from .._types import Directions
-from ..brdf import Brdf, Quality, lit_sphere, quality
+from ..brdf import Brdf, Quality, lit_sphere, quality, require_isotropic
 from ..colour import LUMINANCE
 from ..halfdiff import reflect
 from .rgl import RglBrdf
@@ -77,7 +77,7 @@ def write_rgl(
     path : path
         Mitsuba and pbrt take any name.
     brdf : Brdf
-        Any; one that is anisotropic is averaged over phi_h.
+        Isotropic, or an anisotropic `RglBrdf`, which is averaged over phi_h.
     spectral : bool
         False: ``rgb``, for Mitsuba's rgb variants. True: ``spectra`` and ``wavelengths`` (smooth upsampling, see
         `spectra.smooth_primaries`), for pbrt-v4 and Mitsuba's spectral variants. No reader takes both in one file.
@@ -90,6 +90,8 @@ def write_rgl(
 
     Raises
     ------
+    AnisotropyError
+        When another BRDF depends on phi_h.
     OutputError
         When the file cannot be written.
     """
@@ -97,6 +99,7 @@ def write_rgl(
     description = description or str(getattr(brdf, "name", ""))
     if isinstance(brdf, RglBrdf) and not brdf.is_isotropic:
         brdf = brdf.turned_mean()
+    require_isotropic(brdf, "a .bsdf file of one phi_i")
     expected = lit_sphere(brdf)
     normals = Normals.of(brdf)
     fields, used, reached = {}, RESOLUTIONS[0], Quality(0.0, 1.0)

@@ -15,6 +15,7 @@ Representation", Eurographics Workshop on Rendering 1998, section 3.
 from typing import NamedTuple
 
 import numpy as np
+from jaxtyping import Float
 
 from .._types import Angle, Directions
 
@@ -53,7 +54,7 @@ def cosines(theta_h: Angle, theta_d: Angle, phi_d: Angle) -> tuple[Angle, Angle]
     return along - across, along + across
 
 
-def reflect(v: Directions, h: Directions, cos_d: Angle) -> Directions:
+def reflect(v: Directions, h: Directions, cos_d: Float[np.ndarray, "..."]) -> Directions:
     """The directions on the other side of half vectors: ``2 cos_d h - v`` with ``cos_d = v . h``, known to whoever asks."""
     return 2 * cos_d[..., None] * h - v
 
