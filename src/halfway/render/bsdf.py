@@ -30,11 +30,10 @@ from ..brdf import TabularBrdf, require_isotropic, tabulate
 from ..errors import RenderError
 from ..formats import WAVELENGTHS, read_brdf, smooth_primaries
 from ..halfdiff import MERL, Axis, Grid
-from ..library import open_library
+from ..library import DEFAULT_LIBRARY, open_library
 from ..recipes import Mixer, Recipe
 from .sampling import HalfVectorSampling, buffer
 
-DEFAULT_LIBRARY = "builtin:merl-abc"
 VARIANT = mi.variant()
 """The Mitsuba variant that `TableBsdf` belongs to."""
 UNMEASURED = -1e30
