@@ -23,7 +23,7 @@ import pytest
 
 from halfway.cluster import Cluster
 from halfway.errors import ClusterError, LibraryError
-from halfway.library import StoredLibrary, build_library, verify_library
+from halfway.library import StoredLibrary, build_library
 from halfway.tasks import Work
 
 TESTS = Path(__file__).parent
@@ -114,7 +114,7 @@ def what_is_at(target: Path) -> str:
     if not target.exists():
         return "nothing"
     try:
-        return "a whole library" if verify_library(StoredLibrary(target)).ok else "damaged samples"
+        return "a whole library" if StoredLibrary(target).verify().ok else "damaged samples"
     except LibraryError as error:
         return str(error)
 

@@ -76,6 +76,7 @@ class OneWay(Brdf):
     """Brighter the higher the light stands: not reciprocal."""
 
     name = "one-way"
+    is_isotropic = True
 
     def eval(self, wi, wo):
         return np.where(
@@ -95,6 +96,8 @@ def test_a_material_that_is_not_reciprocal_is_found_out():
 
 class Woven(Brdf):
     """Brighter to one side of the plane of incidence."""
+
+    is_isotropic = True
 
     def eval(self, wi, wo):
         side = wi[..., 0] * wo[..., 1] - wi[..., 1] * wo[..., 0]

@@ -14,8 +14,7 @@ from halfway.cli import main as halfway
 from halfway.errors import HalfwayError
 from halfway.formats import write_merl
 from halfway.halfdiff import Grid
-from halfway.library import CompactLibrary, build_library, open_library
-from halfway.library.compact import write_compact
+from halfway.library import CompactLibrary, build_library, compact_file, open_library
 
 
 @pytest.fixture
@@ -78,7 +77,7 @@ def test_a_compact_library_whose_making_was_stopped_says_so(run, tmp_path):
     run("library", "build", "builtin:synthetic-5", "--grid", "4x3x2", "-o", "a.brdflib")
     run("library", "compact", "a.brdflib", "-k", "3", "-o", "a.brdfc")
     made = CompactLibrary(tmp_path / "a.brdfc")
-    write_compact(made.path, replace(made.header, error={}), made._arrays)
+    compact_file.write(made.path, replace(made.header, error={}), made._arrays)
     code, out, err = run("library", "info", "a.brdfc")
     assert (code, err) == (0, "")
     assert "error: not measured, as its making was stopped: make it again" in out

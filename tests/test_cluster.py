@@ -21,7 +21,7 @@ from halfway.export import write_route
 from halfway.formats import write_merl
 from halfway.halfdiff import Grid
 from halfway.judge import compare_spaces
-from halfway.library import StoredLibrary, verify_library
+from halfway.library import StoredLibrary
 from halfway.look import CellSamples, Looks
 from halfway.recipes import Mixer
 from halfway.space import LinearSpace
@@ -95,7 +95,7 @@ def test_a_library_of_files_named_from_here_is_right_there_too(
 ):
     monkeypatch.chdir(folder.parent)
     built = build_library([folder.name], tmp_path / "here.brdflib", work=Work(engine=cluster))
-    assert verify_library(built.library, work=Work(engine=cluster)) == (9, [], [])
+    assert built.library.verify(work=Work(engine=cluster)) == (9, (), ())
 
 
 def test_components_pictures_and_samples_are_the_same_bytes(cluster, library):

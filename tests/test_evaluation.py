@@ -303,7 +303,7 @@ def test_outside_the_hull_the_nearest_point_has_all_materials_behind_it(seed: in
 
 def test_the_papers_space_wanders_where_plain_mixing_does_not(shared_data):
     """On neural fits of the MERL materials; in full: median detour 3.7, 90th percentile 11.5, uniform jump 4.8 in CIELAB."""
-    brdfs = read_nbrdf_archive(shared_data / "nbrdf" / "merl_nbrdf.zip")
+    brdfs = read_nbrdf_archive(shared_data / "nbrdf" / "merl_nbrdf.zip").models
     coarse = ProceduralLibrary("coarse", brdfs, grid=Grid.merl(24, 12, 16))
     bench = bench_of(coarse, size=12, n_cells=1000)
     pairs = sample_pairs(len(coarse), 40, seed=1)

@@ -24,7 +24,7 @@ from halfway.cli import main as halfway
 from halfway.errors import FormatError, LibraryError, OutputError
 from halfway.formats import write_merl
 from halfway.halfdiff import Grid
-from halfway.library import StoredLibrary, verify_library
+from halfway.library import StoredLibrary
 from halfway.tasks import Work, silent
 
 GRID = Grid.merl(30, 20, 36)
@@ -141,7 +141,7 @@ def library(tmp_path):
 
 
 def test_a_sound_library_verifies(library):
-    assert verify_library(library) == (4, [], [])
+    assert library.verify() == (4, (), ())
 
 
 @pytest.mark.parametrize("place", [128, 200, -1])
@@ -149,7 +149,7 @@ def test_a_flipped_bit_is_found(library, place):
     content = bytearray(library.tables.read_bytes())
     content[place] ^= 1
     library.tables.write_bytes(content)
-    found = verify_library(StoredLibrary(library.path))
+    found = StoredLibrary(library.path).verify()
     assert (found.n_right, len(found.damaged), found.ok) == (3, 1, False)
 
 
@@ -166,7 +166,7 @@ def test_a_source_that_changed_since_is_named(library, tmp_path):
     source = tmp_path / "tiny" / "material-2.binary"
     write_merl(source, random_tables(1, TINY, seed=9)["material-0"])
     (tmp_path / "tiny" / "material-3.binary").unlink()
-    found = verify_library(library)
+    found = library.verify()
     assert (found.damaged, found.changed, found.ok) == ([], ["material-2"], True)
 
 

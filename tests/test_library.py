@@ -2,6 +2,7 @@
 
 import json
 import os
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -11,7 +12,7 @@ from strategies import TINY, random_tables
 from halfway import Recipe, build_library, mix, open_library
 from halfway.cache import cached
 from halfway.components import Pca
-from halfway.errors import LibraryError, OutputError
+from halfway.errors import FormatError, LibraryError, OutputError
 from halfway.formats import write_merl
 from halfway.halfdiff import Grid
 from halfway.library import ProceduralLibrary, StoredLibrary
@@ -115,15 +116,45 @@ def test_a_library_is_never_written_over_something_else(folder, tmp_path):
     assert (thesis / "chapter-1.tex").read_text() == "precious"
 
 
-def test_a_damaged_source_leaves_the_old_library(folder, stored):
-    with (folder / "material-3.binary").open("r+b") as file:
+def damage(path):
+    """A sample that is no number; header and size are right."""
+    with path.open("r+b") as file:
         file.seek(12)
         file.write(np.array([np.nan]).tobytes())
-    before = stored.checksum
-    with pytest.raises(Exception, match=r"material-3\.binary has a NaN sample"):
+
+
+def test_damaged_sources_are_left_out_and_said(folder, tmp_path):
+    """Wherever they stand among the others: what is built is the library of the others."""
+    for name in ("material-0", "material-2"):
+        damage(folder / f"{name}.binary")
+    (tmp_path / "text.binary").write_text("no table")
+    sources = [folder, tmp_path / "text.binary"]
+    library, skipped = build_library(sources, tmp_path / "rest.brdflib")
+    assert {Path(item.path).name: item.reason.partition(" (")[0] for item in skipped} == {
+        "LICENSE.txt": "is text",
+        "text.binary": "is text",
+        "material-0.binary": "has a NaN sample",
+        "material-2.binary": "has a NaN sample",
+    }
+    assert library.names == ("material-1", "material-3")
+    for name, table in random_tables(4, TINY).items():
+        if name in library.names:
+            assert_allclose(library.brdf(name).values, table.values, rtol=1e-6)
+    assert library.verify() == (2, (), ())
+
+
+def test_sources_that_are_all_damaged_leave_the_old_library(folder, stored):
+    for path in folder.glob("*.binary"):
+        damage(path)
+    with pytest.raises(LibraryError, match=r"there is no BRDF in .*0\.binary: has a NaN sample"):
         build_library([folder], stored.path)
-    assert StoredLibrary(stored.path).checksum == before
+    assert StoredLibrary(stored.path).checksum == stored.checksum
     assert sorted(p.name for p in stored.path.parent.iterdir()) == ["measured", "tiny.brdflib"]
+
+
+def test_a_source_that_is_not_there_is_a_mistake(folder, tmp_path):
+    with pytest.raises(FormatError, match=r"nowhere\.binary"):
+        build_library([folder, tmp_path / "nowhere.binary"], tmp_path / "tiny.brdflib")
 
 
 def test_building_again_replaces_the_library(folder, stored):

@@ -147,8 +147,8 @@ def test_a_built_in_set_holds_the_100_materials_and_says_what_it_is(name):
     assert {"light-brown-fabric", "blue-fabric", "cherry-235", "tungsten-carbide"} <= set(
         models.models
     )
-    assert "not measurements" in models.description
-    assert "20" in models.source
+    assert "not measurements" in models.origin.description
+    assert "20" in models.origin.source
     assert builtin(name) is models
 
 

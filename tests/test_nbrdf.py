@@ -10,9 +10,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose, assert_array_equal
 
-from halfway import MERL, Grid, from_half_diff, to_half_diff
+from halfway import MERL, Grid, build_library, from_half_diff, open_library, to_half_diff
 from halfway.errors import FormatError
 from halfway.formats import NeuralBrdf, read_nbrdf, read_nbrdf_archive
+from halfway.library import Origin
 
 SHAPES = [(6, 21), (21,), (21, 21), (21,), (21, 3), (3,)]
 TINY = Grid.merl(5, 6, 8)
@@ -107,10 +108,28 @@ class TestArchive:
             archive.writestr("fits/silver.h5", encode(weights(1)))
             archive.writestr("fits/gold.h5", encode(weights(2)))
             archive.writestr("fits/gold.json", "{}")
-        networks = read_nbrdf_archive(path)
+        networks = read_nbrdf_archive(path).models
         assert list(networks) == ["gold", "silver"]
         assert_array_equal(networks["silver"].W2, weights(1)[2])
         assert list(tmp_path.iterdir()) == [path]
+
+    def test_a_library_of_it_says_where_it_comes_from(self, tmp_path):
+        """And so does one that is made of that library, and of more; a person's word on source and licence counts more."""
+        with zipfile.ZipFile(tmp_path / "all.zip", "w") as archive:
+            archive.writestr("gold.h5", encode(weights(2)))
+        origin = open_library(tmp_path / "all.zip").origin
+        assert "stand-in" in origin.description
+        assert origin.source
+        assert origin.licence
+        first = build_library([tmp_path / "all.zip"], tmp_path / "a.brdflib", grid=TINY).library
+        assert first.origin == origin
+        more = [first.path, "builtin:synthetic-2"]
+        both = build_library(more, tmp_path / "b.brdflib", grid=TINY).library.origin
+        assert both.licence == f"{origin.licence}; CC0-1.0"
+        mine = build_library(
+            [first.path], tmp_path / "c.brdflib", origin=Origin("files", "me", "mine")
+        )
+        assert mine.library.origin == Origin(origin.description, "me", "mine")
 
     def test_without_a_network_is_an_error(self, tmp_path):
         path = tmp_path / "all.zip"
@@ -209,7 +228,7 @@ def test_a_file_too_large_for_a_network_is_not_read(tmp_path):
 
 @pytest.fixture(scope="module")
 def networks(shared_data):
-    return read_nbrdf_archive(shared_data / "nbrdf" / "merl_nbrdf.zip")
+    return read_nbrdf_archive(shared_data / "nbrdf" / "merl_nbrdf.zip").models
 
 
 class TestPublished:

@@ -1,7 +1,5 @@
 """Synthetic materials: reproducible, different from one another, sound, and many-dimensional."""
 
-import sys
-
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
@@ -56,7 +54,7 @@ def test_many_at_once_are_the_samples_of_each(monkeypatch):
     models, part = list(synthetic(20).values()), (slice(3, 5), slice(2, 7))
     each = [model.sample_rows(GRID, part) for model in models]
     n_cells = each[0][0].size
-    monkeypatch.setattr(sys.modules[SyntheticModel.__module__], "CELLS_IN_CACHE", 7 * n_cells)
+    monkeypatch.setattr(SyntheticModel, "cells_in_cache", 7 * n_cells)
     assert_array_equal(SyntheticModel.sample_many(models, GRID, part), np.stack(each, axis=1))
 
 

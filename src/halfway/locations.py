@@ -17,6 +17,10 @@ from typing import Any, NamedTuple
 from .errors import MissingExtraError, RemoteError
 
 SCHEME = "://"
+BUILTIN_PREFIX = "builtin:"
+"""How the address of a library that comes with the package begins."""
+DEFAULT_LIBRARY = f"{BUILTIN_PREFIX}merl-abc"
+"""The library that is meant where none is named."""
 _PACKAGES = {"s3": "s3fs", "gs": "gcsfs"}
 """Of the extra ``cloud``, by the beginning of a URL."""
 

@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 from conftest import Explorer, in_mitsuba, to_linear  # pyright: ignore[reportMissingImports]
 
-from halfway.brdf import TabularBrdf, hemisphere
+from halfway.brdf import TabularBrdf
+from halfway.brdf.quadrature import hemisphere
 from halfway.library import ProceduralLibrary
 from halfway.render.pictures import to_8_bit
 from halfway.render.scenes import SCENES, Scene

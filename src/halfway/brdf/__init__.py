@@ -1,16 +1,16 @@
 """BRDFs: what every material can do, the tabular kind, and how two of them differ."""
 
-from .albedo import directional_albedo, hemisphere
-from .brdf import CELLS_IN_CACHE, Brdf, IsotropicModel
+from . import quadrature
+from .albedo import directional_albedo
+from .brdf import Brdf, IsotropicModel, require_isotropic
 from .check import ValidityCard, check
 from .fresnel import fresnel
-from .metrics import EPSILON, MAPPINGS, Difference, Metric, comparison_cells, difference
+from .metrics import EPSILON, MAPPINGS, Difference, Metric, difference
 from .quality import Quality, lit_sphere, quality
 from .repair import Repaired, repair
 from .table import TabularBrdf, tabulate
 
 __all__ = [
-    "CELLS_IN_CACHE",
     "EPSILON",
     "MAPPINGS",
     "Brdf",
@@ -22,13 +22,13 @@ __all__ = [
     "TabularBrdf",
     "ValidityCard",
     "check",
-    "comparison_cells",
     "difference",
     "directional_albedo",
     "fresnel",
-    "hemisphere",
     "lit_sphere",
+    "quadrature",
     "quality",
     "repair",
+    "require_isotropic",
     "tabulate",
 ]

@@ -14,7 +14,8 @@ from jaxtyping import Float64
 
 from .._types import Indices, Mask
 from ..halfdiff import Grid
-from .albedo import hemisphere
+from .brdf import require_isotropic
+from .quadrature import HalfVectors
 from .table import TabularBrdf
 
 N_THETA_H = 360
@@ -31,7 +32,14 @@ class AlbedoOperator:
 
     @classmethod
     def of(cls, grid: Grid, measured: Mask, theta_i: Float64[np.ndarray, " n"]) -> "AlbedoOperator":
-        """The operator for tables whose measured cells are ``measured``, shape `grid.shape`."""
+        """The operator for tables whose measured cells are ``measured``, shape `grid.shape`.
+
+        Raises
+        ------
+        AnisotropyError
+            When tables on the grid depend on the light's azimuth.
+        """
+        require_isotropic(grid, "its albedo", name=f"a table on a grid of {grid} cells")
         rows = [_row(grid, measured.ravel(), float(theta)) for theta in theta_i]
         return cls(
             theta_i, tuple(cells for cells, _ in rows), tuple(weights for _, weights in rows)
@@ -68,16 +76,11 @@ def _of_grid(grid: Grid, theta_i: tuple[float, ...]) -> AlbedoOperator:
 
 
 def _row(grid: Grid, measured: Mask, theta_i: float) -> tuple[Indices, Float64[np.ndarray, "_"]]:
-    h, dh = hemisphere(N_THETA_H, N_PHI_H)
-    wi = np.array([np.sin(theta_i), 0.0, np.cos(theta_i)])
-    cos_d = h @ wi
-    wo = 2 * cos_d[:, None] * h - wi
-    lit = (cos_d > 0) & (wo[:, 2] > 0)
-    wo, area = wo[lit], (4 * cos_d * dh)[lit] * wo[lit, 2]
-    corners = grid.multilinear(np.broadcast_to(wi, wo.shape), wo)
+    rule = HalfVectors.at(theta_i, N_THETA_H, N_PHI_H)
+    corners = grid.multilinear(rule.fixed, rule.other)
     weights = np.where(measured[corners.cells], corners.weights, 0)
     total = weights.sum(axis=0)
     shares = np.divide(weights, total, out=np.zeros_like(weights), where=total > 0)
-    sums = np.bincount(corners.cells.ravel(), (area * shares).ravel(), minlength=grid.size)
+    sums = np.bincount(corners.cells.ravel(), (rule.weights * shares).ravel(), minlength=grid.size)
     cells = np.flatnonzero(sums)
     return cells, sums[cells]

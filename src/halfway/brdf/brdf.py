@@ -12,14 +12,17 @@ import numpy as np
 from jaxtyping import Float32
 
 from .._types import Angle, Directions, Mask, Part, Table, Values
+from ..errors import AnisotropyError
 from ..halfdiff import Grid, HalfDiff, cosines, to_half_diff
-
-# Float64 arrays of this many cells stay in a core's cache: the MERL grid goes two to three times faster than in one piece.
-CELLS_IN_CACHE = 32768
 
 
 class Brdf(ABC):
     """A reflectance function of three colour channels (linear RGB)."""
+
+    @property
+    @abstractmethod
+    def is_isotropic(self) -> bool:
+        """Whether turning the surface about its normal changes nothing: then values do not depend on phi_h."""
 
     @abstractmethod
     def eval(self, wi: Directions, wo: Directions) -> Values:
@@ -49,6 +52,22 @@ class Brdf(ABC):
         return samples
 
 
+def require_isotropic(what: Brdf | Grid, quantity: str, *, name: str = "") -> None:
+    """Refuse what depends on phi_h where one azimuth would stand for all; ``quantity`` is what would be wrong.
+
+    Raises
+    ------
+    AnisotropyError
+        When a BRDF, or tables on a grid, may depend on phi_h.
+    """
+    if not what.is_isotropic:
+        name = name or str(getattr(what, "name", "")) or "the material"
+        raise AnisotropyError(
+            f"{name} depends on phi_h (it is anisotropic): {quantity} is worked out for isotropic materials only. "
+            "Choose one, or the mean of this one over turns about its normal."
+        )
+
+
 class IsotropicModel(Brdf):
     """A BRDF given by a formula in half/difference angles.
 
@@ -58,6 +77,12 @@ class IsotropicModel(Brdf):
 
     formula: ClassVar[str] = ""
     """Which formula: part of `fingerprint`, so it changes whenever the values do."""
+    cells_in_cache: ClassVar[int] = 32768
+    """Float64 arrays of this many stay in a core's cache: the MERL grid goes two to three times faster than in one piece."""
+
+    @property
+    def is_isotropic(self) -> bool:
+        return True
 
     @abstractmethod
     def at(
@@ -84,7 +109,7 @@ class IsotropicModel(Brdf):
         samples = np.full((*shape, *lit.shape), np.nan, np.float32)
         centres = _cut(grid.centres(), rows)
         n_values = lit.size * math.prod(shape) // 3
-        n_rows = max(1, CELLS_IN_CACHE * len(lit) // max(n_values, 1))
+        n_rows = max(1, self.cells_in_cache * len(lit) // max(n_values, 1))
         for start in range(0, len(lit), n_rows):
             part = slice(start, start + n_rows)
             values = self._at_centres(_cut(centres, part), lit[part])

@@ -21,7 +21,8 @@ from .._types import Directions, Table, Values
 from ..colour import LUMINANCE
 from ..halfdiff import MERL, Grid, HalfDiff, from_half_diff
 from .albedo_operator import albedos
-from .brdf import Brdf
+from .brdf import Brdf, require_isotropic
+from .quadrature import spread_angles
 from .table import TabularBrdf, tabulate
 
 RECIPROCITY_TOLERANCE = 0.01
@@ -102,7 +103,14 @@ class ValidityCard:
 
 
 def check(brdf: Brdf, *, grid: Grid = MERL) -> ValidityCard:
-    """The validity card of a BRDF; one that is no table is looked at on ``grid`` and at pairs in between."""
+    """The validity card of a BRDF; one that is no table is looked at on ``grid`` and at pairs in between.
+
+    Raises
+    ------
+    AnisotropyError
+        When it depends on phi_h.
+    """
+    require_isotropic(brdf, "its check")
     table = brdf if isinstance(brdf, TabularBrdf) else tabulate(brdf, grid)
     measured = ~np.isnan(table.values).any(axis=0)
     mask = table.grid.mask()
@@ -155,15 +163,8 @@ def _broken(card: ValidityCard) -> Iterator[str]:
 
 
 def _pairs() -> tuple[Directions, Directions]:
-    """Pairs above the horizon, spread evenly over the positions of a MERL table by an additive recurrence.
-
-    M. Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018: powers of 1/1.22074, for three dimensions.
-    """
-    position = np.outer(np.arange(1, _N_PAIRS + 1), 1.2207440846057596 ** -np.arange(1.0, 4)) % 1
-    theta_h, theta_d, phi_d = (
-        axis.to_angle(axis.size * x) for axis, x in zip(MERL.axes, position.T, strict=True)
-    )
-    wi, wo = from_half_diff(HalfDiff(theta_h, np.zeros_like(theta_h), theta_d, phi_d))
+    """Pairs above the horizon."""
+    wi, wo = from_half_diff(spread_angles(_N_PAIRS))
     lit = (wi[:, 2] > 0) & (wo[:, 2] > 0)
     return wi[lit], wo[lit]
 

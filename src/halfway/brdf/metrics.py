@@ -16,19 +16,17 @@ than 80 degrees from the normal, where measurements are poor and 1/cos is large,
 """
 
 from collections.abc import Callable
-from functools import lru_cache, partial
+from functools import partial
 from typing import Literal, NamedTuple
 
 import numpy as np
-from jaxtyping import Float, Float64
+from jaxtyping import Float
 
 from .._types import Angle, Mask, Table
 from ..errors import FormatError
-from ..halfdiff import Grid, cosines
+from .quadrature import Cells, comparison_cells
 from .table import TabularBrdf
 
-GRAZING_DEGREES = 80.0
-"""From the normal; Ngan et al. leave out what lies beyond."""
 EPSILON = 1e-3
 """Of Nielsen's mapping: keeps the logarithm finite, and a difference between two blacks small."""
 
@@ -112,27 +110,6 @@ MAPPINGS: dict[Metric, Mapping] = {
     "log": log,
     "log-relative": log_relative,
 }
-
-
-class Cells(NamedTuple):
-    """What the cells of a grid bring to a comparison; arrays of the grid's shape."""
-
-    solid_angle: Float64[np.ndarray, "..."]
-    cos_i: Float64[np.ndarray, "..."]
-    cos_o: Float64[np.ndarray, "..."]
-    grazing: Mask
-
-
-@lru_cache(maxsize=2)
-def comparison_cells(grid: Grid) -> Cells:
-    """The solid angles and cosines of a grid's cells."""
-    angles = grid.centres()
-    cos_i, cos_o = (
-        np.broadcast_to(cosine, grid.shape)
-        for cosine in cosines(angles.theta_h, angles.theta_d, angles.phi_d)
-    )
-    grazing = np.minimum(cos_i, cos_o) < np.cos(np.radians(GRAZING_DEGREES))
-    return Cells(grid.solid_angles(), cos_i, cos_o, grazing)
 
 
 def _root_mean_square(cells: Cells, mapping: Mapping, f: Table, g: Table, counts: Mask) -> float:

@@ -14,7 +14,7 @@ import numpy as np
 
 from .._types import Values
 from ..colour import to_srgb
-from .brdf import Brdf
+from .brdf import Brdf, require_isotropic
 
 _SIDE = 96
 # x to the right, y up, z to the viewer; and the weight.
@@ -38,7 +38,14 @@ class Quality:
 
 
 def lit_sphere(brdf: Brdf) -> Values:
-    """Linear radiance of the sphere's pixels, shape (n, 3); unmeasured counts as 0."""
+    """Linear radiance of the sphere's pixels, shape (n, 3); unmeasured counts as 0.
+
+    Raises
+    ------
+    AnisotropyError
+        When the BRDF depends on how it is turned; the sphere's frames are those of an isotropic one.
+    """
+    require_isotropic(brdf, "its lit sphere")
     wo = _frames() @ np.array([0.0, 0.0, 1.0])
     total = np.zeros_like(wo)
     for direction, weight in _LIGHTS:

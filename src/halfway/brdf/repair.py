@@ -18,6 +18,7 @@ from numpy.lib.stride_tricks import sliding_window_view
 from .._types import Mask
 from ..halfdiff import Grid, cosines
 from .albedo_operator import albedos
+from .brdf import require_isotropic
 from .check import ALBEDO_TOLERANCE, GRAZING_DEGREES, STEEP_DEGREES
 from .table import TabularBrdf
 
@@ -33,7 +34,14 @@ class Repaired(NamedTuple):
 
 
 def repair(table: TabularBrdf) -> Repaired:
-    """The nearest sound table, as above; the same one if it was sound."""
+    """The nearest sound table, as above; the same one if it was sound.
+
+    Raises
+    ------
+    AnisotropyError
+        When it depends on phi_h.
+    """
+    require_isotropic(table, "its repair")
     values = np.array(table.values)
     mask = table.grid.mask()
     changes: list[str] = []

@@ -65,6 +65,10 @@ class TabularBrdf(Brdf):
     def __repr__(self) -> str:
         return f"TabularBrdf({self.name!r}, {self.grid})"
 
+    @property
+    def is_isotropic(self) -> bool:
+        return self.grid.is_isotropic
+
     def eval(
         self, wi: Directions, wo: Directions, *, interpolation: Interpolation = "trilinear"
     ) -> Values:

@@ -7,6 +7,7 @@ from typing import Annotated
 
 import typer
 
+from ..locations import DEFAULT_LIBRARY
 from . import (
     check,
     console,
@@ -28,8 +29,8 @@ from . import (
 app = typer.Typer(
     name="halfway",
     help="New materials from measured ones.",
-    epilog="LIB is a library folder, a compact library, an archive of neural fits, builtin:synthetic-N, or builtin:merl-abc, the default. "
-    "--debug shows the traceback of an error.",
+    epilog="LIB is a library folder, a compact library, an archive of neural fits, builtin:synthetic-N, or the default, "
+    f"{DEFAULT_LIBRARY}. --debug shows the traceback of an error.",
     no_args_is_help=True,
     add_completion=False,
     pretty_exceptions_enable=False,

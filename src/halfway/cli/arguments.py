@@ -9,14 +9,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..errors import HalfwayError
-from ..locations import Location, to_location
+from ..locations import DEFAULT_LIBRARY, Location, to_location
 
 if TYPE_CHECKING:
     from ..halfdiff import Grid
     from ..library import Library
     from ..recipes import Recipe
 
-DEFAULT_LIBRARY = "builtin:merl-abc"
 LONGEST_ROUTE = 100_000
 """Materials; their recipes take 1.5 GB of memory while they are written."""
 

@@ -67,25 +67,5 @@ def compact(
             coding=coding,
             work=work,
         )
-    say("\n".join([f"{output}: {len(made)} materials on {made.grid}", *compact_lines(made)]))
+    say("\n".join([f"{output}: {len(made)} materials on {made.grid}", *made.storage()]))
     say(f"Next: halfway route {output} A B")
-
-
-def compact_lines(library: object) -> list[str]:
-    """What ``halfway library info`` says of a compact library."""
-    from halfway.library import CompactLibrary
-
-    if not isinstance(library, CompactLibrary):
-        return []
-    header, tables = library.header, 12 * len(library) * library.grid.size
-    times = tables / library.n_bytes
-    shared = "shared by the channels" if header.coding.shared else "for each channel"
-    error = header.error
-    loss = "not measured, as its making was stopped: make it again"
-    if error:
-        loss = f"{error['mean_relative_error']:.4f} relative (Table I's), {error['log_relative']:.4f} log-relative"
-    return [
-        f"compact: {header.n_components} {header.coding.mapping} components {shared}, {header.coding.precision}",
-        f"size: {library.n_bytes / 1e6:.1f} MB, {times:.1f} times less than tables of {tables / 1e6:.1f} MB",
-        f"error: {loss}",
-    ]

@@ -2,11 +2,12 @@
 
 import json
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from .compact import compact, compact_lines
+from ..locations import DEFAULT_LIBRARY
+from .compact import compact
 from .console import say, working
 from .options import AsJson, Scheduler
 
@@ -52,12 +53,12 @@ def build(
 
     from .arguments import parse_grid
 
-    origin = Origin("built from files", source, licence) if licence or source else None
+    description = "built from files" if licence or source else ""
     with working(scheduler) as work:
         built = build_library(
             sources,
             to_location(output),
-            origin=origin,
+            origin=Origin(description, source, licence),
             grid=parse_grid(grid) if grid else None,
             work=work,
         )
@@ -87,7 +88,7 @@ app.command()(compact)
 
 @app.command()
 def info(
-    lib: Annotated[str, typer.Argument(metavar="[LIB]")] = "builtin:merl-abc",
+    lib: Annotated[str, typer.Argument(metavar="[LIB]")] = DEFAULT_LIBRARY,
     as_json: Annotated[bool, typer.Option("--json", help="For programs.")] = False,
 ) -> None:
     """Say what is in a library.
@@ -96,29 +97,18 @@ def info(
     halfway library info builtin:merl-abc
     halfway library info merl.brdflib --json
     """
-    from halfway.library import CompactLibrary, open_library
+    from halfway.library import open_library
 
     library = open_library(lib)
-    facts: dict[str, Any] = {
-        "format": 1,
-        "library": library.name,
-        "grid": list(library.grid.shape),
-        "description": library.origin.description,
-        "source": library.origin.source,
-        "licence": library.origin.licence,
-        "checksum": library.checksum,
-        "materials": list(library.names),
-    }
-    if isinstance(library, CompactLibrary):
-        facts["compact"] = library.facts()
+    facts = library.facts()
     if as_json:
-        print(json.dumps(facts, indent=1))
+        print(json.dumps({"format": 1} | facts, indent=1))
         return
     print(f"{library.name}: {len(library)} materials on {library.grid}")
     for key in ("description", "source", "licence"):
         if facts[key]:
             print(f"{key}: {facts[key]}")
-    print("\n".join([*compact_lines(library), *(f"  {name}" for name in library.names)]))
+    print("\n".join([*library.storage(), *(f"  {name}" for name in library.names)]))
 
 
 @app.command()
@@ -138,10 +128,10 @@ def verify(
     halfway library verify merl.brdflib
     halfway library verify merl.brdfc
     """
-    from halfway.library import open_library, verify_library
+    from halfway.library import open_library
 
     with working(scheduler) as work:
-        found = verify_library(open_library(lib), work=work)
+        found = open_library(lib).verify(work=work)
     kinds = {"damaged": found.damaged, "changed": found.changed}
     if as_json:
         document = {"format": 1, "library": lib, "ok": found.ok, "right": found.n_right}

@@ -39,7 +39,8 @@ def mix(
     from halfway.formats import write_brdf
     from halfway.space import make_space
 
-    from .arguments import DEFAULT_LIBRARY, ArgumentError, parse_point, to_recipe
+    from ..locations import DEFAULT_LIBRARY
+    from .arguments import ArgumentError, parse_point, to_recipe
 
     if point:
         if len(words or []) > 1:

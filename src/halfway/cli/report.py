@@ -6,12 +6,13 @@ from typing import Annotated, Any
 
 import typer
 
+from ..locations import DEFAULT_LIBRARY
 from .console import say, working
 from .options import Scheduler
 
 
 def report(
-    lib: Annotated[str, typer.Argument(metavar="[LIB]")] = "builtin:merl-abc",
+    lib: Annotated[str, typer.Argument(metavar="[LIB]")] = DEFAULT_LIBRARY,
     output: Annotated[
         str, typer.Option("--output", "-o", metavar="DIR", help="The folder to write, or its URL.")
     ] = "report",

@@ -5,11 +5,12 @@ from typing import Annotated
 
 import typer
 
+from ..locations import DEFAULT_LIBRARY
 from .console import say, work
 
 
 def reproduce(
-    lib: Annotated[str, typer.Argument(metavar="[LIB]")] = "builtin:merl-abc",
+    lib: Annotated[str, typer.Argument(metavar="[LIB]")] = DEFAULT_LIBRARY,
     output: Annotated[
         Path, typer.Option("--output", "-o", metavar="DIR", help="The folder to write.")
     ] = Path("paper"),

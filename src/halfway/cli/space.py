@@ -5,13 +5,14 @@ from typing import Annotated
 
 import typer
 
+from ..locations import DEFAULT_LIBRARY
 from . import options
 from .console import work
 from .options import SpaceName
 
 
 def space(
-    lib: Annotated[str, typer.Argument(metavar="[LIB]")] = "builtin:merl-abc",
+    lib: Annotated[str, typer.Argument(metavar="[LIB]")] = DEFAULT_LIBRARY,
     near: Annotated[
         str, typer.Option(metavar="NAME", help="List the materials nearest to this one.")
     ] = "",

@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from ..locations import DEFAULT_LIBRARY
 from .console import say, work
 
 if TYPE_CHECKING:
@@ -15,7 +16,7 @@ N_EXPORTED = 8
 
 
 def view(
-    lib: Annotated[str, typer.Argument(metavar="[LIB]")] = "builtin:merl-abc",
+    lib: Annotated[str, typer.Argument(metavar="[LIB]")] = DEFAULT_LIBRARY,
     port: Annotated[int, typer.Option(help="0 takes any free one.")] = 8765,
     browser: Annotated[bool, typer.Option(help="Open the browser.")] = True,
     export: Annotated[

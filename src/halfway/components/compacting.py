@@ -14,20 +14,16 @@ from typing import NamedTuple
 import numpy as np
 from jaxtyping import Float32, Float64
 
-from ..brdf import MAPPINGS, comparison_cells
+from ..brdf import MAPPINGS, quadrature
 from ..errors import LibraryError
 from ..library import (
-    SUFFIX,
-    Arrays,
     Coding,
     CompactLibrary,
-    Header,
     Library,
     Precision,
     Streamed,
-    arrays_checksum,
+    compact_file,
     ranges,
-    write_compact,
 )
 from ..locations import Location, absolute
 from ..tasks import HERE, Work
@@ -56,9 +52,9 @@ def compact_library(
     OutputError
         When ``path`` cannot be written.
     """
-    if path.suffix != SUFFIX:
+    if path.suffix != compact_file.SUFFIX:
         raise LibraryError(
-            f"{path} is no name of a compact library: expected NAME{SUFFIX}, by which it is opened. Name it so."
+            f"{path} is no name of a compact library: expected NAME{compact_file.SUFFIX}, by which it is opened. Name it so."
         )
     if library.address == str(absolute(path)):
         raise LibraryError(
@@ -73,19 +69,14 @@ def compact_library(
         )
     pca = Pca.fit(rows, n_components=n_components, work=work)
     arrays = _arrays(rows, pca, work)
-    header = Header(
-        library.grid,
-        library.names,
-        replace(library.origin, description=_description(library, n_components)),
-        coding,
-        n_components,
-        library.checksum,
-        arrays_checksum(library.names, library.grid, coding, arrays),
-        {},
+    origin = replace(library.origin, description=_description(library, n_components))
+    header = compact_file.Header(
+        library.grid, library.names, origin, coding, n_components, library.checksum
     )
-    write_compact(path, header, arrays)
+    header = replace(header, checksum=compact_file.checksum(header, arrays))
+    compact_file.write(path, header, arrays)
     error = measured_error(library, CompactLibrary(path), work=work)
-    write_compact(path, replace(header, error=error), arrays)
+    compact_file.write(path, replace(header, error=error), arrays)
     return CompactLibrary(path)
 
 
@@ -121,7 +112,7 @@ class _Cut(NamedTuple):
     components: np.ndarray  # (n_bases, k, m)
 
 
-def _arrays(rows: CodedRows, pca: Pca, work: Work) -> Arrays:
+def _arrays(rows: CodedRows, pca: Pca, work: Work) -> compact_file.Arrays:
     # A component within rounding of nothing is nothing.
     least = len(rows) * np.finfo(float).eps * pca.eigenvalues[:, :1]
     roots = np.sqrt(np.where(pca.eigenvalues > least, pca.eigenvalues, np.inf))
@@ -129,7 +120,7 @@ def _arrays(rows: CodedRows, pca: Pca, work: Work) -> Arrays:
     cut = partial(_cut, rows, project, rows.coding.precision)
     parts = list(work.run(cut, rows.blocks(), label="Components"))
     lengths = np.concatenate([part.lengths for part in parts])
-    return Arrays(
+    return compact_file.Arrays(
         np.packbits(np.concatenate([part.cells for part in parts])),
         np.append(0, np.cumsum(lengths)).astype(np.uint64),
         np.concatenate([part.mean for part in parts], axis=-1),
@@ -204,7 +195,7 @@ def _compared(library: Library, compact: Library, block: slice) -> _Compared:
     p, q = p[..., kept].astype(np.float64), q[..., kept].astype(np.float64)
     centred = p - p.mean(axis=1, keepdims=True)
     solid_angle, cos_i, cos_o, grazing = (
-        part.ravel()[block][kept] for part in comparison_cells(library.grid)
+        part.ravel()[block][kept] for part in quadrature.comparison_cells(library.grid)
     )
     weights = np.where(grazing, 0.0, solid_angle)
     relative = MAPPINGS["log-relative"]

@@ -25,7 +25,7 @@ from ..brdf import TabularBrdf
 from ..errors import OutputError
 from ..files import replacing
 from ..formats import merl_bytes, write_brdf
-from ..library import DESCRIPTION, Library, LibraryRef
+from ..library import Library, LibraryRef, is_stored
 from ..locations import Location, absolute, name_in
 from ..recipes import Mixer, Recipe
 from ..space import Route
@@ -69,7 +69,7 @@ def write_route(
         a library's.
     """
     folder = absolute(folder)  # workers may be elsewhere
-    if (folder / DESCRIPTION).exists():
+    if is_stored(folder):
         raise OutputError(
             f"{folder} holds a library: expected a folder of the route's own. Choose another with -o."
         )

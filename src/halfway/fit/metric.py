@@ -21,7 +21,7 @@ import numpy as np
 from jaxtyping import Bool, Float64
 
 from .._types import Directions
-from ..brdf import Brdf, hemisphere
+from ..brdf import Brdf, quadrature, require_isotropic
 from ..errors import FormatError
 from ..halfdiff import HalfDiff, to_half_diff
 from .model import AnalyticModel, Colour, Vector
@@ -71,9 +71,12 @@ class Target(NamedTuple):
 
         Raises
         ------
+        AnisotropyError
+            When it depends on phi_h.
         FormatError
             When the material is measured nowhere the metric looks.
         """
+        require_isotropic(brdf, "its fit", name=name)
         pairs = comparison_pairs()
         samples = brdf.eval(pairs.wi, pairs.wo).T
         known = np.asarray(np.isfinite(samples).all(axis=0))
@@ -105,18 +108,17 @@ class Target(NamedTuple):
 @cache
 def comparison_pairs() -> Pairs:
     """The pairs of directions and their weights."""
-    h, dh = map(np.asarray, hemisphere(N_THETA_H, N_PHI_H))
-    theta_o = np.radians(VIEWS_DEGREES)
-    wo = np.stack([np.sin(theta_o), np.zeros_like(theta_o), np.cos(theta_o)], axis=-1)
-    cos_d = wo @ h.T
-    wi = 2 * cos_d[..., None] * h - wo[:, None]
-    lit = (cos_d > 0) & (wi[..., 2] > np.cos(np.radians(GRAZING_DEGREES)))
-    view, node = np.nonzero(lit)
-    wi, wo, cos_d = wi[lit], wo[view], cos_d[lit]
+    theta_o, least_cosine = np.radians(VIEWS_DEGREES), np.cos(np.radians(GRAZING_DEGREES))
+    views = [
+        quadrature.HalfVectors.at(theta, N_THETA_H, N_PHI_H, least_cosine=least_cosine)
+        for theta in theta_o
+    ]
+    view = np.repeat(np.arange(len(views)), [len(rule.dh) for rule in views])
+    h, wo, wi, cos_d, dh = (np.concatenate(part) for part in zip(*views, strict=True))
     shares = np.sin(2 * theta_o)
-    weight = shares[view] * cos_d * dh[node] / np.sqrt(np.hypot(h[node, 0], h[node, 1]))
-    reflected = np.zeros((len(theta_o), len(view)))
-    reflected[view, np.arange(len(view))] = 4 * cos_d * dh[node] * wi[:, 2]
+    weight = shares[view] * cos_d * dh / np.sqrt(np.hypot(h[:, 0], h[:, 1]))
+    reflected = np.zeros((len(views), len(view)))
+    reflected[view, np.arange(len(view))] = np.concatenate([rule.weights for rule in views])
     return Pairs(
         wi,
         wo,

@@ -6,15 +6,16 @@ from dataclasses import dataclass, field
 from functools import partial
 from hashlib import sha256
 from pathlib import Path
-from typing import NamedTuple
 
 from ..brdf import Brdf
 from ..errors import FormatError
 from ..halfdiff import Grid
-from ..models import builtin
+from ..locations import BUILTIN_PREFIX
+from ..models import ModelSet, builtin
+from ..origin import Origin
 from .content import HEAD_BYTES, description, kind
 from .merl import read_grid, read_merl_source
-from .nbrdf import NeuralBrdf, read_nbrdf_source, require_small
+from .nbrdf import ARCHIVE, NeuralBrdf, read_nbrdf_source, require_small
 from .rgl_reader import material_name, read_rgl_source
 from .sources import FileSource, MemberSource, Source, by_name, members
 
@@ -23,16 +24,7 @@ LARGEST_MEMBER = 100_000_000
 MAX_RATIO = 100
 """Bytes of a larger member for each that it takes in the zip, at most."""
 
-_BUILTIN = "builtin:"
 _EXPECTED = "expected a MERL table, a neural BRDF (.h5) or an RGL material (.bsdf)"
-
-
-class Credit(NamedTuple):
-    """Where a material comes from, for people; empty where the file does not say."""
-
-    description: str = ""
-    source: str = ""
-    licence: str = ""
 
 
 @dataclass(frozen=True)
@@ -44,7 +36,7 @@ class Found:
     """Where it is: a path, ``archive.zip:member`` or ``builtin:NAME``."""
     grid: Grid | None
     """The grid of a table; None for what can be sampled on any."""
-    origin: Credit
+    origin: Origin
     _load: Callable[[], Brdf] = field(repr=False)
     _sha256: Callable[[], str] = field(repr=False)
 
@@ -72,6 +64,13 @@ class Skipped:
     reason: str
     """The end of a sentence that begins with the file: "is text"."""
 
+    @classmethod
+    def because(cls, error: FormatError, path: str) -> "Skipped":
+        """What an error says of a file, without its advice."""
+        said = str(error)
+        what_is_wrong, _, _ = (said.partition(Path(path).name)[2] or said).partition(": ")
+        return cls(path, what_is_wrong.strip())
+
 
 def read_brdf(path: str | Path) -> Brdf:
     """The BRDF in a file, whatever its suffix: a MERL table, a neural BRDF or an RGL material.
@@ -84,11 +83,13 @@ def read_brdf(path: str | Path) -> Brdf:
     return _inspect(FileSource(Path(path))).load()
 
 
-def find_brdfs(sources: Iterable[str | Path]) -> tuple[list[Found], list[Skipped]]:
+def find_brdfs(
+    sources: Iterable[str | Path], *, skip_damaged: bool = False
+) -> tuple[list[Found], list[Skipped]]:
     """The BRDFs in files, folders (with their subfolders), zips and ``builtin:NAME``, and what else is in there.
 
     Sources keep their order; what is in a folder or a zip is sorted by path. A BRDF is called by its file's name
-    without the suffix.
+    without the suffix. With ``skip_damaged`` a source that is no BRDF is skipped like one in a folder.
 
     Raises
     ------
@@ -98,7 +99,7 @@ def find_brdfs(sources: Iterable[str | Path]) -> tuple[list[Found], list[Skipped
     found: dict[str, Found] = {}
     skipped: list[Skipped] = []
     for source in sources:
-        for item in _items(source):
+        for item in _items(source, skip_damaged):
             if isinstance(item, Skipped):
                 skipped.append(item)
                 continue
@@ -111,8 +112,8 @@ def find_brdfs(sources: Iterable[str | Path]) -> tuple[list[Found], list[Skipped
     return list(found.values()), skipped
 
 
-def read_nbrdf_archive(path: str | Path) -> dict[str, NeuralBrdf]:
-    """The neural BRDFs in a zip, by name, read in memory; `find_brdfs` says what else is in it, and why it is left out.
+def read_nbrdf_archive(path: str | Path) -> ModelSet:
+    """The neural BRDFs in a zip, read in memory; `find_brdfs` says what else is in it, and why it is left out.
 
     Raises
     ------
@@ -129,12 +130,12 @@ def read_nbrdf_archive(path: str | Path) -> dict[str, NeuralBrdf]:
         raise FormatError(
             f"{archive.label} holds no neural BRDF: expected .h5 files of Keras weights in it."
         )
-    return networks
+    return ModelSet(archive.name, ARCHIVE, networks)
 
 
-def _items(source: str | Path) -> Iterator[Found | Skipped]:
-    if str(source).startswith(_BUILTIN):
-        yield from _built_in(str(source).removeprefix(_BUILTIN))
+def _items(source: str | Path, skip_damaged: bool) -> Iterator[Found | Skipped]:
+    if str(source).startswith(BUILTIN_PREFIX):
+        yield from _built_in(str(source).removeprefix(BUILTIN_PREFIX))
         return
     path = Path(source)
     if path.is_dir():
@@ -142,18 +143,22 @@ def _items(source: str | Path) -> Iterator[Found | Skipped]:
     elif _kind(file := FileSource(path)) == "zip":
         yield from map(_member, members(path))
     else:
-        yield _inspect(file)
+        try:
+            yield _inspect(file)
+        except FormatError as error:
+            if not skip_damaged:
+                raise
+            yield Skipped.because(error, str(path))
 
 
 def _built_in(name: str) -> Iterator[Found]:
     models = builtin(name)
-    credit = Credit(models.description, models.source, models.licence)
     for material, model in models.models.items():
         yield Found(
             material,
-            f"{_BUILTIN}{name}",
+            f"{BUILTIN_PREFIX}{name}",
             None,
-            credit,
+            models.origin,
             partial(_itself, model),
             partial(_fingerprint, model),
         )
@@ -187,8 +192,7 @@ def _examine(location: str, label: str, open_source: Callable[[], Source]) -> Fo
     try:
         return _inspect(open_source())
     except FormatError as error:
-        what_is_wrong, _, _ = str(error).partition(": ")
-        return Skipped(location, what_is_wrong.removeprefix(label).strip())
+        return Skipped.because(error, location)
 
 
 def _inspect(source: Source) -> Found:
@@ -207,7 +211,10 @@ def _inspect(source: Source) -> Found:
             return _found(source, read_grid(source), read_merl_source)
         case "nbrdf":
             require_small(source)
-            return _found(source, None, read_nbrdf_source)
+            # A network by itself may be anyone's; an archive of them is the published one.
+            in_archive = isinstance(source, MemberSource)
+            origin = ARCHIVE if in_archive else Origin(ARCHIVE.description)
+            return _found(source, None, read_nbrdf_source, origin=origin)
         case "rgl":
             return _found(source, None, read_rgl_source, name=material_name(source.label))
         case "zip":
@@ -231,8 +238,13 @@ def _kind(source: Source) -> str | None:
 
 
 def _found(
-    source: Source, grid: Grid | None, read: Callable[[Source], Brdf], *, name: str = ""
+    source: Source,
+    grid: Grid | None,
+    read: Callable[[Source], Brdf],
+    *,
+    name: str = "",
+    origin: Origin = Origin(),  # noqa: B008 (frozen)
 ) -> Found:
     return Found(
-        name or source.name, source.location, grid, Credit(), partial(read, source), source.sha256
+        name or source.name, source.location, grid, origin, partial(read, source), source.sha256
     )

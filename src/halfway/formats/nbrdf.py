@@ -22,12 +22,20 @@ import numpy as np
 from .._types import Angle
 from ..brdf import IsotropicModel
 from ..errors import FormatError
+from ..origin import Origin
 from .content import HDF5, description
 from .hdf5 import Hdf5Error, Hdf5Object, read_hdf5
 from .sources import FileSource, Source
 
 LARGEST_BYTES = 200_000
 """A network takes 19 kB; a file of more than this is something else, and is not read."""
+
+ARCHIVE = Origin(
+    "neural fits (stand-ins, not measurements)",
+    "A. Sztrajman et al., Neural BRDF Representation and Importance Sampling, CGF 40(6), 2021",
+    "MIT",
+)
+"""Of the fits that were published."""
 
 _MOST_NAMES = 16
 _SHAPES = ((6, 21), (21,), (21, 21), (21,), (21, 3), (3,))

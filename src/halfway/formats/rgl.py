@@ -27,12 +27,14 @@ from functools import cached_property, reduce
 import numpy as np
 
 from .._types import Directions, Part, Table, Values
-from ..brdf import Brdf
-from ..halfdiff import MERL, Grid, HalfDiff, from_half_diff
+from ..brdf import Brdf, quadrature
+from ..halfdiff import Grid, from_half_diff
 from .rgl_warp import Interpolant, Warp, slices
 
 _TURNS = 2 * np.pi / 16 * np.arange(16)
 """Turns about the normal over which an anisotropic material is averaged."""
+_N_PAIRS = 1000
+"""Pairs of directions at which its values are compared."""
 
 _BLOCK = 1 << 14  # pairs evaluated at once: the temporaries stay in the cache
 
@@ -113,7 +115,7 @@ class RglBrdf(Brdf):
         """How much the values vary as the surface turns: standard deviation over mean, over pairs of directions; 0 if isotropic."""
         if self.is_isotropic:
             return 0.0
-        i, o = from_half_diff(_spread())
+        i, o = from_half_diff(quadrature.spread_angles(_N_PAIRS))
         values = np.stack([self.eval(_turned(i, angle), _turned(o, angle)) for angle in _TURNS])
         return float(values.std(axis=0).sum() / np.abs(values.mean(axis=0)).sum())
 
@@ -154,15 +156,6 @@ class RglBrdf(Brdf):
         return flip * i, flip * o
 
 
-def _spread() -> HalfDiff:
-    """Half/difference angles of 1,000 pairs, evenly spread over the positions of a MERL table (additive recurrence)."""
-    position = np.outer(np.arange(1000) + 0.5, [0.8191725, 0.6710436, 0.5497005]) % 1
-    theta_h, theta_d, phi_d = (
-        axis.to_angle(x * axis.size) for axis, x in zip(MERL.axes, position.T, strict=True)
-    )
-    return HalfDiff(theta_h, np.zeros_like(theta_h), theta_d, phi_d)
-
-
 def _turned(v: Directions, angle: float) -> Directions:
     """The directions seen from a surface turned about its normal."""
     c, s = math.cos(angle), math.sin(angle)
@@ -174,6 +167,10 @@ class _TurnedMean(Brdf):
     """The mean of a material over turns about its normal."""
 
     material: RglBrdf
+
+    @property
+    def is_isotropic(self) -> bool:
+        return True  # up to what is between the turns
 
     def eval(self, wi: Directions, wo: Directions) -> Values:
         turned = (self.material.eval(_turned(wi, angle), _turned(wo, angle)) for angle in _TURNS)

@@ -20,8 +20,9 @@ from typing import NamedTuple
 import numpy as np
 
 from .._types import Directions
-from ..brdf import Brdf, Quality, lit_sphere, quality
+from ..brdf import Brdf, Quality, lit_sphere, quality, require_isotropic
 from ..colour import LUMINANCE
+from ..halfdiff import reflect
 from .rgl import RglBrdf
 from .rgl_normals import Normals
 from .rgl_reader import from_fields
@@ -76,7 +77,7 @@ def write_rgl(
     path : path
         Mitsuba and pbrt take any name.
     brdf : Brdf
-        Any; one that is anisotropic is averaged over phi_h.
+        Isotropic, or an anisotropic `RglBrdf`, which is averaged over phi_h.
     spectral : bool
         False: ``rgb``, for Mitsuba's rgb variants. True: ``spectra`` and ``wavelengths`` (smooth upsampling, see
         `spectra.smooth_primaries`), for pbrt-v4 and Mitsuba's spectral variants. No reader takes both in one file.
@@ -89,6 +90,8 @@ def write_rgl(
 
     Raises
     ------
+    AnisotropyError
+        When another BRDF depends on phi_h.
     OutputError
         When the file cannot be written.
     """
@@ -96,6 +99,7 @@ def write_rgl(
     description = description or str(getattr(brdf, "name", ""))
     if isinstance(brdf, RglBrdf) and not brdf.is_isotropic:
         brdf = brdf.turned_mean()
+    require_isotropic(brdf, "a .bsdf file of one phi_i")
     expected = lit_sphere(brdf)
     normals = Normals.of(brdf)
     fields, used, reached = {}, RESOLUTIONS[0], Quality(0.0, 1.0)
@@ -142,7 +146,7 @@ def _slice(
     u_theta, u_phi = warp.sample(s_theta, s_phi, i_slice)
     i = np.array([np.sin(theta_i), 0.0, np.cos(theta_i)])
     m = _direction(np.pi / 2 * u_theta**2, np.pi * (2 * u_phi - 1))
-    o = 2 * (m @ i)[:, None] * m - i
+    o = reflect(i, m, m @ i)
     values = brdf.eval(o, np.broadcast_to(i, o.shape))
     known = (o[:, 2] > _LEAST_COSINE) & (m @ i > 0) & np.isfinite(values).all(axis=1)
     scale = o[:, 2] * 4 * normals.area_at(theta_i) / normals.density_at(u_theta)

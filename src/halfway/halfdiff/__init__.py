@@ -1,6 +1,6 @@
 """Half/difference angles and the grids that sample them."""
 
-from .angles import HalfDiff, cosines, from_half_diff, to_half_diff
+from .angles import HalfDiff, cosines, from_half_diff, reflect, to_half_diff
 from .grid import MERL, Axis, Corners, Grid
 
 __all__ = [
@@ -11,5 +11,6 @@ __all__ = [
     "HalfDiff",
     "cosines",
     "from_half_diff",
+    "reflect",
     "to_half_diff",
 ]

@@ -15,6 +15,7 @@ Representation", Eurographics Workshop on Rendering 1998, section 3.
 from typing import NamedTuple
 
 import numpy as np
+from jaxtyping import Float
 
 from .._types import Angle, Directions
 
@@ -51,6 +52,11 @@ def cosines(theta_h: Angle, theta_d: Angle, phi_d: Angle) -> tuple[Angle, Angle]
     along = np.cos(theta_h) * np.cos(theta_d)
     across = np.sin(theta_h) * np.sin(theta_d) * np.cos(phi_d)
     return along - across, along + across
+
+
+def reflect(v: Directions, h: Directions, cos_d: Float[np.ndarray, "..."]) -> Directions:
+    """The directions on the other side of half vectors: ``2 cos_d h - v`` with ``cos_d = v . h``, known to whoever asks."""
+    return 2 * cos_d[..., None] * h - v
 
 
 def _to_polar(v: Directions) -> tuple[Angle, Angle]:

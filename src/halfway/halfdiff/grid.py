@@ -100,6 +100,11 @@ class Grid:
         """Number of cells."""
         return math.prod(self.shape)
 
+    @property
+    def is_isotropic(self) -> bool:
+        """Whether no table on it can depend on phi_h."""
+        return all(axis.angle != "phi_h" for axis in self.axes)
+
     def __str__(self) -> str:
         return " x ".join(map(str, self.shape))
 

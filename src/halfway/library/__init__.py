@@ -1,27 +1,24 @@
 """Libraries: sets of materials on one grid, stored, computed when asked for, or compact."""
 
+from ..locations import DEFAULT_LIBRARY
+from ..origin import Origin
+from . import compact_file
 from .blocks import columns_per_piece, ranges
-from .building import build_library
-from .coding import Coding, Mapping, Precision
-from .compact import SUFFIX, Arrays, CompactLibrary, Header, arrays_checksum, write_compact
-from .library import Library, LibraryRef, Origin, Streamed
-from .opening import DEFAULT_LIBRARY, open_library
+from .build import build_library
+from .coding import Coding, Precision
+from .compact import CompactLibrary
+from .library import Library, LibraryRef, Streamed, Verdict
+from .opening import open_library
 from .procedural import ProceduralLibrary
-from .stored import DESCRIPTION, StoredLibrary
+from .stored import StoredLibrary, is_stored
 from .subset import Subset
-from .verifying import Verdict, verify_library
 
 __all__ = [
     "DEFAULT_LIBRARY",
-    "DESCRIPTION",
-    "SUFFIX",
-    "Arrays",
     "Coding",
     "CompactLibrary",
-    "Header",
     "Library",
     "LibraryRef",
-    "Mapping",
     "Origin",
     "Precision",
     "ProceduralLibrary",
@@ -29,11 +26,10 @@ __all__ = [
     "Streamed",
     "Subset",
     "Verdict",
-    "arrays_checksum",
     "build_library",
     "columns_per_piece",
+    "compact_file",
+    "is_stored",
     "open_library",
     "ranges",
-    "verify_library",
-    "write_compact",
 ]

@@ -22,7 +22,7 @@ import numpy as np
 from jaxtyping import Float
 
 from .._types import Rows
-from ..brdf import EPSILON, comparison_cells
+from ..brdf import EPSILON, quadrature
 from ..halfdiff import Grid
 
 Mapping = Literal["log", "linear"]
@@ -65,5 +65,5 @@ class Coding:
 
 @lru_cache(maxsize=2)
 def _weights(grid: Grid) -> Float[np.ndarray, " p"]:
-    cells = comparison_cells(grid)
+    cells = quadrature.comparison_cells(grid)
     return np.maximum(cells.cos_i * cells.cos_o, EPSILON).ravel().astype(np.float32)

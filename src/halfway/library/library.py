@@ -14,8 +14,9 @@ reconstructed from principal components.
 import hashlib
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import asdict
 from difflib import get_close_matches
+from functools import lru_cache, partial
 from shlex import quote
 from typing import Any, NamedTuple
 
@@ -25,17 +26,11 @@ from jaxtyping import Float32
 from .._types import Table
 from ..brdf import TabularBrdf
 from ..errors import LibraryError
+from ..formats import Found
 from ..halfdiff import Grid
-
-
-@dataclass(frozen=True)
-class Origin:
-    """Where the materials come from, for people."""
-
-    description: str = ""
-    """One line; says "stand-in" where the materials are fits and not measurements."""
-    source: str = ""
-    licence: str = ""
+from ..locations import Location, absolute
+from ..origin import Origin
+from ..tasks import HERE, Work
 
 
 class LibraryRef(NamedTuple):
@@ -83,6 +78,21 @@ class Streamed(ABC):
         return len(self.names)
 
 
+class Verdict(NamedTuple):
+    """What reading a library again found; names in its order."""
+
+    n_right: int
+    """Materials whose samples have the checksum that they were written with."""
+    damaged: tuple[str, ...] = ()
+    """Materials whose samples have another."""
+    changed: tuple[str, ...] = ()
+    """Materials whose source is there and has changed since; the library holds what it was."""
+
+    @property
+    def ok(self) -> bool:
+        return not self.damaged
+
+
 class Library(Streamed):
     """A set of materials on one grid."""
 
@@ -99,6 +109,45 @@ class Library(Streamed):
 
     def __repr__(self) -> str:
         return f"<{type(self).__name__} {self.name!r}: {len(self)} materials on {self.grid}>"
+
+    def facts(self) -> dict[str, Any]:
+        """What it is, in JSON for programs."""
+        return {
+            "library": self.name,
+            "grid": list(self.grid.shape),
+            **asdict(self.origin),
+            "checksum": self.checksum,
+            "materials": list(self.names),
+        }
+
+    def storage(self) -> list[str]:
+        """How it is stored and what that loses, for people; nothing where samples are what they were."""
+        return []
+
+    def verify(self, *, work: Work = HERE) -> Verdict:  # noqa: ARG002
+        """Read all samples again and compare them with their checksums, and the sources that are still there.
+
+        Raises
+        ------
+        LibraryError
+            When the library is computed and has nothing that could be damaged, or is damaged as a whole.
+        """
+        raise LibraryError(
+            f"{self.name} is computed when asked for: expected a .brdflib folder or a .brdfc file, which may be damaged."
+        )
+
+    def materials(self) -> list[Found]:
+        """Its materials, to build another library of."""
+        return [
+            Found(
+                name, source, self.grid, self.origin, partial(self.brdf, name), partial(str, sha256)
+            )
+            for name, (source, sha256) in zip(self.names, self._sources(), strict=True)
+        ]
+
+    def _sources(self) -> list[tuple[str, str]]:
+        """Where each material is from, and the checksum that it has there."""
+        return [(self.name, checksum) for checksum in self.material_checksums]
 
     def index(self, name: str) -> int:
         """Position of the material called ``name``.
@@ -122,6 +171,31 @@ class Library(Streamed):
         """The table of the material called ``name``."""
         values = self.row(self.index(name)).reshape(3, *self.grid.shape)
         return TabularBrdf(values, self.grid, name=name)
+
+
+class FileLibrary(Library):
+    """A library that travels between processes as its path."""
+
+    path: Location
+
+    @property
+    def address(self) -> str:
+        return str(absolute(self.path))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _opened, (type(self), absolute(self.path), self.checksum)
+
+
+@lru_cache(maxsize=2)
+def _opened(kind: Any, path: Location, checksum: str) -> Library:
+    """The library that another process means; the last two stay open, a compact one with its numbers."""
+    library = kind(path)
+    if library.checksum != checksum:
+        raise LibraryError(
+            f"{path} has checksum {library.checksum[:12]} here and {checksum[:12]} where the work began: it was made "
+            "again, or is another on this machine. Run the same command again."
+        )
+    return library
 
 
 def texts(fields: Mapping[str, Any]) -> Mapping[str, str]:

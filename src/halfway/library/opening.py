@@ -7,20 +7,16 @@ library.brdfc           a compact library (or its URL): principal components, re
 """
 
 import zipfile
-from pathlib import Path
 
 from ..errors import LibraryError
 from ..formats import read_nbrdf_archive
-from ..locations import Location, RemotePath, to_location
+from ..locations import BUILTIN_PREFIX, Location, RemotePath, to_location
 from ..models import BUILTIN, builtin
-from .compact import SUFFIX as COMPACT_SUFFIX
-from .compact import CompactLibrary, is_compact
-from .library import Library, Origin
+from . import compact_file
+from .compact import CompactLibrary
+from .library import Library
 from .procedural import ProceduralLibrary
 from .stored import StoredLibrary
-
-BUILTIN_PREFIX = "builtin:"
-DEFAULT_LIBRARY = "builtin:merl-abc"
 
 
 def open_library(where: str | Location) -> Library:
@@ -32,18 +28,18 @@ def open_library(where: str | Location) -> Library:
         When there is no such library.
     """
     if str(where).startswith(BUILTIN_PREFIX):
-        models = builtin(str(where).removeprefix(BUILTIN_PREFIX))
-        origin = Origin(models.description, models.source, models.licence)
-        return ProceduralLibrary(str(where), models.models, origin=origin)
+        built_in = builtin(str(where).removeprefix(BUILTIN_PREFIX))
+        return ProceduralLibrary(str(where), built_in.models, origin=built_in.origin)
     path = to_location(where)
     if isinstance(path, RemotePath):
-        return CompactLibrary(path) if path.suffix == COMPACT_SUFFIX else StoredLibrary(path)
+        return CompactLibrary(path) if path.suffix == compact_file.SUFFIX else StoredLibrary(path)
     if path.is_dir():
         return StoredLibrary(path)
-    if path.is_file() and is_compact(path):
+    if path.is_file() and compact_file.is_compact(path):
         return CompactLibrary(path)
     if zipfile.is_zipfile(path):
-        return _open_archive(path)
+        fits = read_nbrdf_archive(path)
+        return ProceduralLibrary(str(path), fits.models, origin=fits.origin, path=path)
     if path.exists():
         raise LibraryError(
             f"{path} is one file, not a library: `halfway library build {path} OTHER... -o NAME.brdflib` "
@@ -54,13 +50,3 @@ def open_library(where: str | Location) -> Library:
         + ", ".join(f"{BUILTIN_PREFIX}{name}" for name in BUILTIN)
         + "."
     )
-
-
-def _open_archive(path: Path) -> Library:
-    brdfs = read_nbrdf_archive(path)
-    origin = Origin(
-        description="neural fits (stand-ins, not measurements)",
-        source="A. Sztrajman et al., Neural BRDF Representation and Importance Sampling, CGF 40(6), 2021",
-        licence="MIT",
-    )
-    return ProceduralLibrary(str(path), brdfs, origin=origin, path=path)

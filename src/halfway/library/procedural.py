@@ -14,8 +14,9 @@ import numpy as np
 from .._types import Rows, Table
 from ..brdf import Brdf
 from ..halfdiff import MERL, Grid
+from ..origin import Origin
 from .blocks import columns_per_block, grid_parts
-from .library import Library, Origin, material_checksum
+from .library import Library, material_checksum
 
 
 class ProceduralLibrary(Library):

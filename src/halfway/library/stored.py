@@ -18,20 +18,26 @@ import io
 import json
 import math
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import partial
+from pathlib import Path
 from secrets import token_hex
 from typing import Any
 
 import numpy as np
 
 from .._types import Rows, Table
-from ..errors import LibraryError
+from ..errors import HalfwayError, LibraryError
+from ..formats import find_brdfs
 from ..halfdiff import Axis, Grid
-from ..locations import Location, RemotePath, absolute, read_into
+from ..locations import Location, RemotePath, read_into
+from ..origin import Origin
+from ..tasks import HERE, Work
+from . import compact_file
 from .blocks import columns_per_block, ranges
-from .library import Library, Origin, material_checksum, texts
+from .compact import CompactLibrary
+from .library import FileLibrary, Verdict, material_checksum, texts
 
 FORMAT = 1
 SUFFIX = ".brdflib"
@@ -51,7 +57,7 @@ class Entry:
     """Of its samples, (3, p) float32 little endian."""
 
 
-class StoredLibrary(Library):
+class StoredLibrary(FileLibrary):
     """A library opened from its folder.
 
     Raises
@@ -93,14 +99,6 @@ class StoredLibrary(Library):
             for entry in self.entries
         )
 
-    @property
-    def address(self) -> str:
-        return str(absolute(self.path))
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        """A library travels as its path."""
-        return _opened, (absolute(self.path), self.checksum)
-
     def row(self, i: int) -> Table:
         return self._read(range(i, i + 1), slice(0, self.grid.size))[:, 0]
 
@@ -109,6 +107,21 @@ class StoredLibrary(Library):
 
     def blocks(self) -> list[slice]:
         return ranges(self.grid.size, columns_per_block(len(self)))
+
+    def verify(self, *, work: Work = HERE) -> Verdict:
+        """Read all samples again, and those of its sources that are still there."""
+        right = list(work.run(partial(_is_right, self), range(len(self)), label="Samples"))
+        sources = list(dict.fromkeys(filter(None, map(_file, self.entries))))
+        checksums = work.run(_checksums, sources, label="Sources")
+        now = dict(zip(sources, checksums, strict=True))
+        return Verdict(
+            sum(right),
+            tuple(name for name, is_right in zip(self.names, right, strict=True) if not is_right),
+            tuple(entry.name for entry in self.entries if _has_changed(entry, now)),
+        )
+
+    def _sources(self) -> list[tuple[str, str]]:
+        return [(entry.source, entry.source_sha256) for entry in self.entries]
 
     def _read(self, materials: range, columns: slice) -> Rows:
         rows = np.empty((3, len(materials), columns.stop - columns.start), np.float32)
@@ -149,6 +162,11 @@ class StoredLibrary(Library):
         return len(header)
 
 
+def is_stored(path: Location) -> bool:
+    """Whether there is a stored library at ``path``, whole or damaged."""
+    return (path / DESCRIPTION).exists()
+
+
 def library_checksum(entries: Sequence[Entry], grid: Grid) -> str:
     """The checksum of a library of these materials."""
     parts = [(entry.name, entry.sha256) for entry in entries]
@@ -173,16 +191,30 @@ def npy_header(shape: tuple[int, ...]) -> bytes:
     return header.getvalue()
 
 
-@lru_cache(maxsize=8)
-def _opened(path: Location, checksum: str) -> StoredLibrary:
-    """The library that another process means; descriptions of a few stay open, tables are not held."""
-    library = StoredLibrary(path)
-    if library.checksum != checksum:
-        raise LibraryError(
-            f"{path} has checksum {library.checksum[:12]} here and {checksum[:12]} where the work began: it was built "
-            "again, or is another folder on this machine. Run the same command again."
-        )
-    return library
+def _is_right(library: StoredLibrary, i: int) -> bool:
+    return hashlib.sha256(library.row(i).data).hexdigest() == library.entries[i].sha256
+
+
+def _file(entry: Entry) -> str | None:
+    """The file that a material came from, if it is there; a member of a zip is called ``archive.zip:member``."""
+    files = map(Path, (entry.source, entry.source.rpartition(":")[0]))
+    # Workers may be in another folder.
+    return next((str(file.absolute()) for file in files if file.is_file()), None)
+
+
+def _checksums(source: str) -> dict[str, str]:
+    """Of the materials in a file, by name; none where it is no BRDF any more."""
+    try:
+        compact = Path(source).suffix == compact_file.SUFFIX
+        there = CompactLibrary(Path(source)).materials() if compact else find_brdfs([source])[0]
+    except HalfwayError:
+        return {}
+    return {material.name: material.sha256 for material in there}
+
+
+def _has_changed(entry: Entry, now: Mapping[str, Mapping[str, str]]) -> bool:
+    checksums = now.get(_file(entry) or "")
+    return checksums is not None and checksums.get(entry.name) != entry.source_sha256
 
 
 def _tables_name(name: str) -> str:
@@ -202,7 +234,7 @@ def _read_description(path: Location) -> dict[str, Any]:
         ) from None
     except (OSError, ValueError, KeyError, TypeError, RecursionError) as error:
         raise LibraryError(
-            f"{path / 'library.json'} cannot be read ({error}): build the library again."
+            f"{path / DESCRIPTION} cannot be read ({error}): build the library again."
         ) from None
     if version != FORMAT:
         raise LibraryError(

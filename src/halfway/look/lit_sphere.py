@@ -23,7 +23,7 @@ import numpy as np
 from jaxtyping import Float, Float32, Float64, Int
 
 from .._types import Directions, Mask
-from ..brdf import hemisphere
+from ..brdf import quadrature, require_isotropic
 from ..halfdiff import Grid
 
 Angles = Float64[np.ndarray, "..."]
@@ -125,7 +125,14 @@ class SphereOperator(NamedTuple):
 
     @classmethod
     def of(cls, scene: SphereScene, grid: Grid) -> "SphereOperator":
-        """The operator of ``scene`` for isotropic tables on ``grid``."""
+        """The operator of ``scene`` for isotropic tables on ``grid``.
+
+        Raises
+        ------
+        AnisotropyError
+            When tables on ``grid`` depend on phi_h.
+        """
+        require_isotropic(grid, "its lit sphere", name=f"a table on a grid of {grid} cells")
         frame, pixel = _points(scene)
         light = _light_queries(scene.lights, frame)
         theta_o, moment = _sky_queries()
@@ -207,14 +214,11 @@ def _light_queries(lights: tuple[Light, ...], frame: _Frame) -> _Queries:
 def _sky_queries() -> tuple[Angles, _Queries]:
     """The angles theta_o of the nodes, and the quadrature of their moments."""
     theta_o = (np.arange(N_SKY_NODES) + 0.5) * np.pi / 2 / N_SKY_NODES
-    h, dh = hemisphere(*N_SKY_HALF_VECTORS)
-    wo = _viewer(theta_o)[:, None]
-    cos_d = wo @ h.T
-    wi = 2 * np.moveaxis(cos_d, 1, 2) * h - wo
-    lit = (cos_d[:, 0] > 0) & (wi[..., 2] > 0)
-    owner = np.nonzero(lit)[0]
-    measure = (4 * cos_d[:, 0] * dh * wi[..., 2])[lit]
-    return theta_o, _Queries(wi[lit], np.broadcast_to(wo, wi.shape)[lit], owner, measure)
+    rules = [quadrature.HalfVectors.at(theta, *N_SKY_HALF_VECTORS) for theta in theta_o]
+    owner = np.repeat(np.arange(N_SKY_NODES), [len(rule.dh) for rule in rules])
+    _, wo, wi, _, _ = (np.concatenate(part) for part in zip(*rules, strict=True))
+    weights = np.concatenate([rule.weights for rule in rules])
+    return theta_o, _Queries(wi, wo, owner, weights)
 
 
 def _viewer(theta_o: Angles) -> Directions:

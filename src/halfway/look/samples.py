@@ -18,7 +18,7 @@ import numpy as np
 from jaxtyping import Float, Float32, Float64, Int
 
 from .._types import Mask
-from ..brdf import MAPPINGS, Metric, comparison_cells
+from ..brdf import MAPPINGS, Metric, quadrature
 from ..errors import LibraryError
 from ..halfdiff import Grid
 from ..library import Library
@@ -154,7 +154,7 @@ class _Drawn(NamedTuple):
 
 def _draw_cells(grid: Grid, n_cells: int, seed: int) -> _Drawn:
     """Systematic sampling: evenly spaced along the cumulative probability, from a random start."""
-    setting = comparison_cells(grid)
+    setting = quadrature.comparison_cells(grid)
     allowed = np.flatnonzero(grid.mask() & ~setting.grazing)
     solid_angle = setting.solid_angle.ravel()[allowed]
     probability = (solid_angle / solid_angle.sum() + 1 / len(allowed)) / 2

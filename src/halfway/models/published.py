@@ -13,6 +13,7 @@ from typing import Final
 import numpy as np
 
 from ..brdf import IsotropicModel
+from ..origin import Origin
 from .abc import AbcModel
 from .sgd import SgdModel
 
@@ -22,10 +23,8 @@ class ModelSet:
     """Named models with one source."""
 
     name: str
-    description: str
-    """One line that says what they are, and that they are no measurements."""
-    source: str
-    licence: str
+    origin: Origin
+    """Says that they are no measurements."""
     models: Mapping[str, IsotropicModel]
     """By material name, in the order of the database."""
 
@@ -42,19 +41,23 @@ def published(name: str) -> ModelSet:
         case "merl-abc":
             return ModelSet(
                 name,
-                "The 100 MERL materials as analytic stand-ins (ABC microfacet fits), not measurements",
-                "Löw, Kronander, Ynnerman, Unger: BRDF Models for Accurate and Efficient Rendering of Glossy Surfaces, "
-                "ACM TOG 31(1), 2012",
-                _FACTS,
+                Origin(
+                    "The 100 MERL materials as analytic stand-ins (ABC microfacet fits), not measurements",
+                    "Löw, Kronander, Ynnerman, Unger: BRDF Models for Accurate and Efficient Rendering of Glossy Surfaces, "
+                    "ACM TOG 31(1), 2012",
+                    _FACTS,
+                ),
                 _read("abc_low2012_microfacet.csv", _to_abc),
             )
         case _:
             return ModelSet(
                 name,
-                "The 100 MERL materials as analytic stand-ins (shifted gamma fits), not measurements",
-                "Bagher, Soler, Holzschuch: Accurate fitting of measured reflectances using a Shifted Gamma "
-                "micro-facet distribution, CGF 31(4), 2012",
-                _FACTS,
+                Origin(
+                    "The 100 MERL materials as analytic stand-ins (shifted gamma fits), not measurements",
+                    "Bagher, Soler, Holzschuch: Accurate fitting of measured reflectances using a Shifted Gamma "
+                    "micro-facet distribution, CGF 31(4), 2012",
+                    _FACTS,
+                ),
                 _read("sgd_bagher2012.csv", _to_sgd),
             )
 

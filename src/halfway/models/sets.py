@@ -8,6 +8,7 @@ import re
 from functools import cache
 
 from ..errors import LibraryError
+from ..origin import Origin
 from .published import PUBLISHED, ModelSet, published
 from .synthetic import synthetic
 
@@ -38,8 +39,10 @@ def builtin(name: str) -> ModelSet:
         raise LibraryError(f"builtin:{name} has {n:,} materials: expected 1 to {MOST_SYNTHETIC:,}.")
     return ModelSet(
         name,
-        f"{n:,} synthetic materials (parametric families, seed {seed}), not measurements",
-        "made by halfway; the formula is in its module models/synthetic.py",
-        "CC0-1.0",
+        Origin(
+            f"{n:,} synthetic materials (parametric families, seed {seed}), not measurements",
+            "made by halfway; the formula is in its module models/synthetic.py",
+            "CC0-1.0",
+        ),
         synthetic(n, seed),
     )

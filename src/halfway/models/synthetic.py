@@ -28,7 +28,7 @@ import numpy as np
 from jaxtyping import Float32
 
 from .._types import Angle, Part
-from ..brdf import CELLS_IN_CACHE, IsotropicModel
+from ..brdf import IsotropicModel
 from ..halfdiff import Grid
 from .grazing import GRAZING_DEGREES, held
 
@@ -101,7 +101,7 @@ class SyntheticModel(IsotropicModel):
     ) -> Float32[np.ndarray, "3 N *part"]:
         shape = grid.mask()[rows].shape
         samples = np.empty((3, len(brdfs), *shape), np.float32)
-        step = max(1, CELLS_IN_CACHE // max(1, math.prod(shape)))
+        step = max(1, cls.cells_in_cache // max(1, math.prod(shape)))
         for start in range(0, len(brdfs), step):
             some = brdfs[start : start + step]
             model = _stacked(some, len(grid.axes))

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from .._types import Table
-from ..brdf import TabularBrdf
+from ..brdf import TabularBrdf, require_isotropic
 from ..errors import LibraryError, RecipeError
 from ..library import Library, open_library
 from .blend import Blend
@@ -26,6 +26,7 @@ class Mixer:
     """Mixes recipes of one library, keeping the rows it used last (`n_rows` of 17.5 MB each on the MERL grid)."""
 
     def __init__(self, library: Library, *, n_rows: int = 24) -> None:
+        require_isotropic(library.grid, "a mix", name=library.name)
         self._library = library
         self._rows: OrderedDict[str, Table] = OrderedDict()
         self._n_rows = n_rows

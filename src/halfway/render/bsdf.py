@@ -26,15 +26,14 @@ import drjit as dr
 import mitsuba as mi
 import numpy as np
 
-from ..brdf import TabularBrdf, tabulate
+from ..brdf import TabularBrdf, require_isotropic, tabulate
 from ..errors import RenderError
 from ..formats import WAVELENGTHS, read_brdf, smooth_primaries
 from ..halfdiff import MERL, Axis, Grid
-from ..library import open_library
+from ..library import DEFAULT_LIBRARY, open_library
 from ..recipes import Mixer, Recipe
 from .sampling import HalfVectorSampling, buffer
 
-DEFAULT_LIBRARY = "builtin:merl-abc"
 VARIANT = mi.variant()
 """The Mitsuba variant that `TableBsdf` belongs to."""
 UNMEASURED = -1e30
@@ -62,6 +61,7 @@ class TableBsdf(mi.BSDF):
     def __init__(self, props: Any, brdf: TabularBrdf | None = None) -> None:
         super().__init__(props)
         brdf = brdf or _read(props)
+        require_isotropic(brdf, "its importance sampling")
         self.grid = brdf.grid
         self.table = buffer(pack(brdf))
         self.sampling = HalfVectorSampling(self)

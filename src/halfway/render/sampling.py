@@ -23,6 +23,8 @@ import mitsuba as mi
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..halfdiff import reflect
+
 N_VIEWS = 24
 """View angles, evenly spaced from 0 to the last, `STEEPEST_VIEW`."""
 STEEPEST_VIEW = np.radians(89.0)
@@ -179,7 +181,7 @@ def _tabulate(
     h = np.stack([np.sin(t) * np.cos(p), s * np.sin(t) * np.sin(p), np.cos(t)])
     wo = np.stack([np.sin(v), 0 * v, np.cos(v)])
     cos_d = (h * wo).sum(axis=0)
-    wi = 2 * cos_d * h - wo
+    wi = reflect(wo.T, h.T, cos_d).T
     lit = (cos_d > 0) & (wi[2] > 0)
     f = bsdf.values(mi.Vector3f(*map(buffer, wi)), mi.Vector3f(*map(buffer, wo)), True)
     f = np.where(lit, np.array(f), 0).astype(float).reshape(3, *shape)

@@ -1,0 +1,95 @@
+"""What depends on phi_h says so, and is refused wherever one azimuth would stand for all."""
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from halfway import Grid, TabularBrdf, directional_albedo, mix
+from halfway.brdf import check, lit_sphere, repair
+from halfway.brdf.albedo_operator import albedos
+from halfway.errors import AnisotropyError
+from halfway.fit import fit
+from halfway.formats import write_rgl
+from halfway.halfdiff import Axis, from_half_diff
+from halfway.library import Library, ProceduralLibrary
+from halfway.look import PACING_SCENE, SphereOperator
+from halfway.recipes import Recipe
+
+PHI_H = Axis("phi_h", 8, 2 * np.pi, periodic=True)
+GRID = Grid((*Grid.merl(6, 4, 6).axes, PHI_H))
+
+
+def brushed() -> TabularBrdf:
+    """Light across the brush is spread, along it is not: values fall with the half vector's x faster than with its y."""
+    wi, wo = from_half_diff(GRID.centres())
+    h = (wi + wo) / np.linalg.norm(wi + wo, axis=-1, keepdims=True)
+    values = np.exp(-8 * h[..., 0] ** 2 - 0.5 * h[..., 1] ** 2)
+    samples = np.where(GRID.mask(), values, np.nan).astype(np.float32)
+    return TabularBrdf(np.stack([samples] * 3), GRID, name="brushed")
+
+
+def turned(table: TabularBrdf) -> TabularBrdf:
+    """By a quarter turn, two cells of phi_h."""
+    return TabularBrdf(np.roll(table.values, 2, axis=-1), table.grid, name="turned")
+
+
+def library() -> Library:
+    return ProceduralLibrary("brushes", {"a": brushed(), "b": turned(brushed())}, grid=GRID)
+
+
+def test_a_grid_and_a_table_say_whether_they_are_isotropic():
+    assert Grid.merl().is_isotropic
+    assert not GRID.is_isotropic
+    assert not brushed().is_isotropic
+
+
+def test_a_turned_table_reflects_otherwise():
+    """So an albedo of it has no meaning without the light's azimuth."""
+    along, across = (
+        directional_albedo(table.eval, np.radians(60)) for table in (brushed(), turned(brushed()))
+    )
+    assert np.abs(along / across - 1).min() > 0.1
+
+
+@pytest.mark.parametrize(
+    ("of", "quantity"),
+    [
+        (lambda table: directional_albedo(table, 0.5), "its albedo"),
+        (lambda table: albedos(table, np.array([0.5])), "its albedo"),
+        (check, "its check"),
+        (repair, "its repair"),
+        (lit_sphere, "its lit sphere"),
+        (lambda table: SphereOperator.of(PACING_SCENE, table.grid), "its lit sphere"),
+        (lambda table: fit(table, name=table.name), "its fit"),
+    ],
+)
+def test_what_looks_at_one_azimuth_refuses(of, quantity):
+    with pytest.raises(AnisotropyError) as raised:
+        of(brushed())
+    said = str(raised.value)
+    assert "depends on phi_h (it is anisotropic)" in said
+    assert f": {quantity} is worked out for isotropic materials only." in said
+    assert "\n" not in said
+
+
+def test_no_rgl_file_of_one_azimuth_is_written(tmp_path):
+    with pytest.raises(AnisotropyError, match=r"^brushed depends on phi_h"):
+        write_rgl(tmp_path / "brushed.bsdf", brushed())
+    assert not list(tmp_path.iterdir())
+
+
+def test_anisotropic_tables_are_not_mixed():
+    recipe = Recipe.from_text("brushes", "a=.5, b=.5")
+    with pytest.raises(AnisotropyError, match=r"^brushes depends on phi_h .*: a mix is worked out"):
+        mix(library(), recipe)
+
+
+def test_they_are_stored_and_come_back():
+    assert_allclose(library().brdf("a").values, brushed().values)
+
+
+def test_mitsuba_is_given_no_table_that_depends_on_phi_h():
+    from halfway.render import Renderer
+
+    with pytest.raises(AnisotropyError, match="its importance sampling"):
+        Renderer("sphere", size=(8, 8)).picture(brushed())
