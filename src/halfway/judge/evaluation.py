@@ -24,7 +24,7 @@ from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
-from jaxtyping import Float32, Float64, Int
+from jaxtyping import Float, Float32, Float64, Int
 
 from ..colour import to_lab
 from ..library import Library
@@ -33,7 +33,6 @@ from ..look import (
     PACING_SCENE,
     CellSamples,
     Looks,
-    Means,
     appearance,
     ciede2000_difference,
     cielab_difference,
@@ -252,7 +251,7 @@ def _jumps(bench: Bench, route: Route) -> list[float]:
     ]
 
 
-def _jump(steps: Means) -> float:
+def _jump(steps: Float[np.ndarray, " n_steps"]) -> float:
     mean = float(steps.mean())
     return float(steps.max()) / mean if mean else np.nan
 

@@ -1,6 +1,6 @@
 """Looks: pictures and samples of a library's materials, made of their tables alone, and how different they look."""
 
-from .appearance import Lab, Means, appearance, ciede2000_difference, cielab_difference, flip, shown
+from .appearance import appearance, ciede2000_difference, cielab_difference, flip, shown
 from .images import Looks, most_different
 from .lit_sphere import JUDGING_SCENE, PACING_SCENE, SphereOperator, SphereScene
 from .portraits import N_SPHERES, portrait, recipes_png, table_png, to_png
@@ -11,9 +11,7 @@ __all__ = [
     "N_SPHERES",
     "PACING_SCENE",
     "CellSamples",
-    "Lab",
     "Looks",
-    "Means",
     "SphereOperator",
     "SphereScene",
     "appearance",

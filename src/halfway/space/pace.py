@@ -17,7 +17,8 @@ from dataclasses import replace
 import numpy as np
 from jaxtyping import Float64
 
-from ..look import Lab, Looks, appearance, ciede2000_difference
+from ..colour import Lab
+from ..look import Looks, appearance, ciede2000_difference
 from .routes import Route
 from .way import Way
 
