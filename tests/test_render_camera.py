@@ -1,8 +1,4 @@
-"""Cameras, windows, passes, the denoiser, and what the doctor says."""
-
-import subprocess
-import sys
-from pathlib import Path
+"""Cameras, windows, passes, the denoiser."""
 
 import numpy as np
 import pytest
@@ -13,12 +9,11 @@ from numpy.testing import assert_allclose
 from halfway.brdf import TabularBrdf
 from halfway.errors import RenderError
 from halfway.halfdiff import Grid
-from halfway.render import QUALITY, Renderer, doctor
+from halfway.render import QUALITY, Renderer
 from halfway.render.camera import camera_to_world, window
 from halfway.render.denoise import denoised
 from halfway.render.exposure import PASS_SAMPLES, Exposure, Layer
 from halfway.render.scenes import SCENES, Camera
-from halfway.render.variant import Llvm, aborting, find_llvm, require_tables
 
 GRID = Grid.merl(4, 4, 8)
 GREY = TabularBrdf(np.full((3, *GRID.shape), 0.2, np.float32), GRID)
@@ -93,71 +88,3 @@ def test_a_missing_denoiser_says_what_to_install(monkeypatch):
 def test_qualities_are_options_of_a_renderer():
     for options in QUALITY.values():
         Renderer("sphere", size=(8, 8), **options)
-
-
-def test_the_doctor_names_everything_and_what_its_absence_costs():
-    findings = doctor()
-    assert [f.what for f in findings] == ["Mitsuba", "LLVM", "variant", "denoiser", "video writer"]
-    assert all(f.cost for f in findings)
-    assert findings[2].found == "llvm_ad_rgb"
-
-
-@pytest.mark.parametrize("variant", ["scalar_rgb", "scalar_spectral", "llvm_ad_spectral_polarized"])
-def test_variants_that_cannot_look_up_tables_are_refused(variant):
-    with pytest.raises(RenderError, match=variant):
-        require_tables(variant)
-
-
-@pytest.mark.parametrize(("version", "aborts"), [(15, True), (16, True), (19, False), (23, False)])
-def test_an_llvm_that_aborts_is_seen_among_what_is_loaded(version, aborts):
-    """So that Mitsuba, imported before, gets an error and not a process that dies at the first render."""
-    line = f"7f00-7f01 r-xp 00000000 00:00 1    /usr/lib/x86_64-linux-gnu/libLLVM-{version}.so.1"
-    found = aborting(["7f00-7f01 rw-p 00000000 00:00 0 ", line])
-    assert (found is not None) == aborts
-
-
-def test_an_llvm_that_aborts_is_not_chosen(tmp_path):
-    assert not Llvm(Path("libLLVM-15.so"), 15, "system").works
-    assert not Llvm(Path("libLLVM.so"), None, "system").works
-    assert Llvm(Path("libLLVM-19.so"), 19, "system").works
-    assert Llvm(tmp_path, 15, "set by the user").works
-
-
-@pytest.mark.skipif(sys.platform != "linux", reason="the LLVM of the environment is for Linux")
-def test_the_llvm_of_the_environment_is_found(monkeypatch):
-    monkeypatch.delenv("DRJIT_LIBLLVM_PATH", raising=False)
-    llvm = find_llvm()
-    assert llvm is not None
-    assert llvm.path.is_file()
-    assert llvm.version is not None
-    monkeypatch.setenv("DRJIT_LIBLLVM_PATH", "/somewhere/libLLVM-20.so")
-    chosen = find_llvm()
-    assert chosen is not None
-    assert (str(chosen.path), chosen.version) == ("/somewhere/libLLVM-20.so", 20)
-
-
-def test_without_llvm_a_file_stands_for_the_table(tmp_path):
-    """In a process of its own, as a variant is set once. A Lambertian sphere looks the same either way."""
-    trial = f"""
-import numpy as np
-from halfway.render import Renderer, variant
-variant.find_llvm = lambda: None
-from halfway.brdf import TabularBrdf
-from halfway.halfdiff import Grid
-grid = Grid.merl(4, 4, 8)
-renderer = Renderer("sphere", size=(24, 24), spp=4)
-picture = renderer.picture(TabularBrdf(np.full((3, *grid.shape), 0.2, np.float32), grid))
-import mitsuba
-print(mitsuba.variant(), renderer.exact)
-np.save({str(tmp_path / "picture.npy")!r}, picture)
-"""
-    done = subprocess.run([sys.executable, "-c", trial], capture_output=True, text=True, check=True)
-    assert done.stdout.split() == ["scalar_rgb", "False"]
-    exact = Renderer("sphere", size=(24, 24), spp=4)
-    assert exact.exact
-    inside = (
-        slice(6, 18),
-        slice(6, 18),
-    )  # at the edge pixels are only partly covered, by other samples
-    picture = np.load(tmp_path / "picture.npy")
-    assert_allclose(picture[inside], exact.picture(GREY)[inside], atol=0.05)

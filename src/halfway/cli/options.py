@@ -64,6 +64,12 @@ class Quality(StrEnum):
     final = "final"
 
 
+class DeviceName(StrEnum):
+    auto = "auto"
+    cpu = "cpu"
+    gpu = "gpu"
+
+
 # halfway route
 
 Stops = Annotated[
@@ -145,6 +151,10 @@ Bounces = Annotated[int | None, typer.Option(help="Of light between surfaces; 1 
 InStrip = Annotated[int, typer.Option("-n", help="Pictures of a longer route in a strip.")]
 Arrangement = Annotated[Layout, typer.Option(help="How several pictures lie in one.")]
 Exposure = Annotated[float, typer.Option(help="In stops.")]
+Device = Annotated[
+    DeviceName,
+    typer.Option(help="auto: an NVIDIA GPU where there is one that works, else the CPU."),
+]
 Seed = Annotated[int, typer.Option(help="The same seed gives the same picture.")]
 Fps = Annotated[int, typer.Option(help="Frames per second of an animation.")]
 Pictures = Annotated[PictureFormat, typer.Option("--format", help="Of the pictures in a folder.")]

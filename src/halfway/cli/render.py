@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from . import options
 from .console import say, track, work
-from .options import Layout, PictureFormat, Quality
+from .options import DeviceName, Layout, PictureFormat, Quality
 
 if TYPE_CHECKING:
     import numpy as np
@@ -31,6 +31,7 @@ def render(
     layout: options.Arrangement = Layout.STRIP,
     exposure: options.Exposure = 0.0,
     seed: options.Seed = 0,
+    device: options.Device = DeviceName.auto,
     fps: options.Fps = 12,
     format: options.Pictures = PictureFormat.png,
 ) -> None:
@@ -62,6 +63,7 @@ def render(
         env=env,
         mesh=mesh,
         bounces=bounces,
+        device=device.value,
     )
     if not output.suffix:
         _render_folder(output, renderer, materials, format, exposure)

@@ -78,8 +78,11 @@ def _export(library: "Library", folder: Path, materials: str, n: int | None) -> 
 
 
 def doctor() -> None:
-    """Say what rendering found on this machine, and what each missing thing costs."""
+    """Say what rendering found on this machine, and what each missing thing costs; exit 1 where one is needed."""
     from halfway.render import doctor as examine
 
-    for finding in examine():
+    findings = examine()
+    for finding in findings:
         print(f"{finding.what:14} {finding.found or 'missing: ' + finding.cost}")
+    if any(finding.needed and finding.found is None for finding in findings):
+        raise typer.Exit(1)

@@ -25,7 +25,7 @@ from .denoise import denoised, denoiser_available, require_denoiser
 from .exposure import Exposure, Layer, no_progress
 from .scenes import SCENES, Material, Scene
 from .studio import studio
-from .variant import compiles, load_mitsuba, register
+from .variant import Device, compiles, load_mitsuba, register
 
 BACKGROUND = 0.03
 """Radiance behind the objects of a scene without a ground."""
@@ -63,6 +63,8 @@ class Renderer:
         Of light between surfaces, in place of the scene's own.
     denoise : bool
         Take the noise out of each picture. A denoised picture of a mix is not quite the mix of the denoised pictures.
+    device : {"auto", "cpu", "gpu"}
+        Where to render; ``auto`` is an NVIDIA GPU where there is one that works. All of a program runs on one.
 
     Raises
     ------
@@ -87,6 +89,7 @@ class Renderer:
         mesh: Path | str | None = None,
         bounces: int | None = None,
         denoise: bool = False,
+        device: Device = "auto",
     ) -> None:
         self.scene = _scene(scene)
         self.size = size
@@ -98,9 +101,9 @@ class Renderer:
         _require("spp", spp, 1, LARGEST_SPP)
         _require("seed", seed, 0, 2**32 - 1)
         _require("bounces", self.bounces, 1, 1000)
-        self._variant = load_mitsuba().variant()
+        self._variant = load_mitsuba(device).variant()
         if self.exact:
-            register()
+            register(device)
         if denoise:
             require_denoiser()
         self._denoise = denoise
@@ -112,7 +115,7 @@ class Renderer:
 
     @property
     def exact(self) -> bool:
-        """Whether tables are looked up as they are; without LLVM, files within some 50 dB stand for them."""
+        """Whether tables are looked up as they are; without GPU and LLVM, files within some 50 dB stand for them."""
         return compiles(self._variant)
 
     @property

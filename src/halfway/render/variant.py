@@ -1,90 +1,73 @@
-"""Which Mitsuba to run: the LLVM library, the variant, and what was found.
+"""Which Mitsuba to run: on the GPU, on the CPU, or ray by ray where nothing compiles.
 
-Dr.Jit compiles through libLLVM, which it takes from ``DRJIT_LIBLLVM_PATH`` or from the system. LLVM 15 and 16 load and
-then abort the whole process at the first render ("Cannot select: fminimum"), which nothing can catch. So the library is
-chosen here, before Mitsuba is imported: the one the user set, else the one of ``karellen-llvm-core`` in this environment,
-else the newest on the system that is known to work.
+A variant of Mitsuba is a device and a way to carry colour. What is compiled runs on an NVIDIA card (``cuda_ad_rgb``) or through
+LLVM on the CPU (``llvm_ad_rgb``). Once a program has set one it stays: what was made in one variant does not fit another.
 """
 
+import ctypes
 import importlib
-import importlib.metadata
 import os
 import re
 import sys
-from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
-from pathlib import Path
-from typing import Any
+from typing import Any, Literal, get_args
 
 from ..errors import RenderError
+from .llvm import OLDEST_LLVM, choose_llvm, find_llvm, llvm_advice, require_llvm
 
-VARIANT = "llvm_ad_rgb"
+Device = Literal["auto", "cpu", "gpu"]
+"""Where to render; ``auto`` is the GPU where there is one that works."""
+VARIANTS = {"gpu": "cuda_ad_rgb", "cpu": "llvm_ad_rgb"}
 FALLBACK = "scalar_rgb"
-"""Without LLVM: Mitsuba's own ``measured`` shows files that stand for the tables."""
-OLDEST_LLVM = 19
-"""Dr.Jit refuses 14; 15 and 16 abort the process; 19 and later are known to work."""
-ABORTING_LLVM = 15, 16
+"""Without GPU and LLVM: Mitsuba's own ``measured`` shows files that stand for the tables."""
 
-_PATH_VARIABLE = "DRJIT_LIBLLVM_PATH"
-_SYSTEM_LIBRARIES = {
-    "linux": ("/usr/lib/*/libLLVM*.so*", "/usr/lib/llvm-*/lib/libLLVM*.so*", "/usr/lib64/libLLVM*.so*"),
-    "darwin": ("/opt/homebrew/Cellar/llvm/*/lib/libLLVM.dylib", "/usr/local/Cellar/llvm/*/lib/libLLVM.dylib"),
-    "win32": (),
-}  # fmt: skip
+_DRIVER = {
+    "linux": {"DRJIT_LIBCUDA_PATH": "libcuda.so.1", "DRJIT_LIBOPTIX_PATH": "libnvoptix.so.1"},
+    "win32": {"DRJIT_LIBCUDA_PATH": "nvcuda.dll", "DRJIT_LIBOPTIX_PATH": "nvoptix.dll"},
+}
+"""The driver's libraries that Dr.Jit loads, each by the variable that may name another."""
 
 
-@dataclass(frozen=True)
-class Llvm:
-    """A libLLVM and how it was found."""
+def load_mitsuba(device: Device = "auto") -> Any:
+    """The ``mitsuba`` module with a variant set: the program's own choice, else the fitting one of ``device``.
 
-    path: Path
-    version: int | None
-    """Major version; None where the name does not tell."""
-    origin: str
-
-    @property
-    def works(self) -> bool:
-        """Whether the version is one that renders; what the user chose is taken at their word."""
-        return self.origin == "set by the user" or (self.version or 0) >= OLDEST_LLVM
-
-    def __str__(self) -> str:
-        return f"LLVM {self.version or '?'} ({self.origin}: {self.path})"
-
-
-def find_llvm() -> Llvm | None:
-    """The libLLVM to use, or None: the user's own, the environment's, the newest of the system that works."""
-    if chosen := os.environ.get(_PATH_VARIABLE):
-        return Llvm(Path(chosen), _version(Path(chosen)), "set by the user")
-    usable = (llvm for llvm in (*_in_environment(), *_on_system()) if llvm.works)
-    return next(usable, None)
-
-
-def load_mitsuba() -> Any:
-    """The ``mitsuba`` module with a variant set: the program's own choice, else `VARIANT`, else `FALLBACK` without LLVM.
+    Where Mitsuba is imported here, its warnings go to stderr.
 
     Raises
     ------
     RenderError
-        When there is no Mitsuba, ``DRJIT_LIBLLVM_PATH`` names no file, or the program imported Mitsuba before and that
-        found an LLVM which would abort the process.
+        When there is no Mitsuba, the device cannot be had or is not that of the variant which is set, or the LLVM library
+        is one that fails or aborts.
     """
-    fitting = VARIANT
-    imported = "mitsuba" in sys.modules
-    if not imported:
-        fitting = VARIANT if _choose_llvm() else FALLBACK
-    mi = _import_mitsuba()
-    if imported and (mi.variant() or fitting).startswith("llvm"):
-        _refuse_unfit_llvm()
+    if device not in get_args(Device):
+        raise RenderError(f"there is no device {device!r}: expected auto, cpu or gpu.")
+    imported = sys.modules.get("mitsuba")
+    if imported is None:
+        choose_llvm()
+    variant = (imported and imported.variant()) or _fitting(device)
+    _require_device(variant, device)
+    if variant.startswith("llvm"):
+        require_llvm()
+    mi = _import("mitsuba")
+    if imported is None:
+        _warn_on_stderr(mi)
     if mi.variant() is None:
-        mi.set_variant(fitting)
+        mi.set_variant(variant)
     return mi
 
 
-def aborting(maps: Iterable[str]) -> Llvm | None:
-    """The library that will abort the process, if one is among those mapped into it (lines of ``/proc/self/maps``)."""
-    loaded = (Path(line.split()[-1]) for line in maps if "libLLVM" in line)
-    found = (Llvm(path, _version(path), "loaded by Mitsuba") for path in loaded)
-    return next((llvm for llvm in found if llvm.version in ABORTING_LLVM), None)
+def gpu_lacks() -> str | None:
+    """What keeps Mitsuba from rendering on a GPU here; None where nothing does."""
+    for variable, name in _DRIVER.get(sys.platform, {}).items():
+        try:
+            ctypes.CDLL(os.environ.get(variable, name))
+        except OSError:
+            return f"{name}, a part of NVIDIA's driver, is not here"
+    if sys.platform not in _DRIVER:
+        return f"Mitsuba has none for {sys.platform}"
+    drjit: Any = _import("drjit")
+    if not drjit.has_backend(drjit.JitBackend.CUDA):
+        return "Dr.Jit cannot use the card or its driver"
+    return None
 
 
 def compiles(variant: str) -> bool:
@@ -92,15 +75,16 @@ def compiles(variant: str) -> bool:
     return re.fullmatch(r"(llvm|cuda)_ad_(rgb|mono|spectral)", variant) is not None
 
 
-def register() -> None:
-    """Make ``halfway_table`` known to Mitsuba, in the variant that is set, for scenes given as dicts or XML.
+def register(device: Device = "auto") -> None:
+    """Make ``halfway_table`` known to Mitsuba, for scenes given as dicts or XML, in every variant that can look up tables.
 
-    Tables work in ``llvm_ad`` and ``cuda_ad`` variants: rgb, mono and spectral; one is set where none is.
+    These are ``llvm_ad`` and ``cuda_ad`` variants: rgb, mono and spectral. One is set where none is; where another is set
+    later, the table is known there too.
 
     Raises
     ------
     RenderError
-        In another variant, or without an LLVM library.
+        In another variant, or where nothing compiles.
 
     Examples
     --------
@@ -109,13 +93,10 @@ def register() -> None:
     >>> import mitsuba as mi                                                        # doctest: +SKIP
     >>> mi.load_dict({"type": "halfway_table", "filename": "gold-paint.binary"})    # doctest: +SKIP
     """
-    mi = load_mitsuba()
+    mi = load_mitsuba(device)
     require_tables(mi.variant())
-    from . import bsdf
-
-    if mi.variant() != bsdf.VARIANT:
-        importlib.reload(bsdf)
-    mi.register_bsdf("halfway_table", bsdf.TableBsdf)
+    _register_in(None, mi.variant())
+    mi.detail.add_variant_callback(_register_in)  # a set: once more is the same
 
 
 def require_tables(variant: str) -> None:
@@ -128,80 +109,60 @@ def require_tables(variant: str) -> None:
     """
     if not compiles(variant):
         raise RenderError(
-            f"the Mitsuba variant {variant} cannot look up tables: expected one that compiles, such as {VARIANT}, and no "
-            f"polarization. "
-            f"Call mi.set_variant({VARIANT!r}) first; it needs LLVM {OLDEST_LLVM} or later. {llvm_advice()}."
+            f"the Mitsuba variant {variant} cannot look up tables: expected one that compiles, such as {VARIANTS['cpu']}, "
+            f"and no polarization. Call mi.set_variant({VARIANTS['cpu']!r}) first; it needs LLVM {OLDEST_LLVM} or later. "
+            f"{llvm_advice()}."
         )
 
 
-def _choose_llvm() -> bool:
-    """Whether there is an LLVM library for Dr.Jit to load; it is told which."""
-    llvm = find_llvm()
-    if llvm is None:
-        return False
-    if not llvm.path.is_file():
+def _register_in(_: str | None, variant: str) -> None:
+    """Register the table in the variant that is set now; `mitsuba.BSDF` is another class in each."""
+    if not compiles(variant):
+        return
+    from . import bsdf
+
+    if variant != bsdf.VARIANT:
+        importlib.reload(bsdf)
+    bsdf.mi.register_bsdf("halfway_table", bsdf.TableBsdf)
+
+
+def _fitting(device: Device) -> str:
+    lacks = None if device == "cpu" else gpu_lacks()
+    if device != "cpu" and lacks is None:
+        return VARIANTS["gpu"]
+    if device == "gpu":
+        raise RenderError(f"there is no GPU to render on: {lacks}. Use --device cpu, or auto.")
+    # A Mitsuba that was imported before has looked for an LLVM itself.
+    return VARIANTS["cpu"] if find_llvm() or "mitsuba" in sys.modules else FALLBACK
+
+
+def _require_device(variant: str, device: Device) -> None:
+    if device != "auto" and variant.startswith("cuda") != (device == "gpu"):
         raise RenderError(
-            f"{_PATH_VARIABLE} names {llvm.path}, which is no file: expected an LLVM library. "
-            "Correct it, or unset it to have one chosen."
-        )
-    os.environ[_PATH_VARIABLE] = str(llvm.path)
-    return True
-
-
-def _refuse_unfit_llvm() -> None:
-    maps = Path("/proc/self/maps")  # only Linux tells what is loaded
-    llvm = aborting(maps.read_text().splitlines() if maps.exists() else [])
-    if llvm:
-        raise RenderError(
-            f"{llvm} aborts the process at the first render: expected {OLDEST_LLVM} or later. "
-            "Call halfway.render.register() before Mitsuba is imported, which chooses one that works."
+            f"Mitsuba's variant {variant}, which is set, does not run on the {device}: expected {VARIANTS[device]}. "
+            "Ask for that device before anything is rendered."
         )
 
 
-def _import_mitsuba() -> Any:
+def _import(name: str) -> Any:
     try:
-        import mitsuba
+        return importlib.import_module(name)
     except ImportError as error:
         raise RenderError(
-            f"mitsuba cannot be imported ({error}): rendering needs it. Run pip install mitsuba."
+            f"{name} cannot be imported ({error}): rendering needs it. Run pip install mitsuba."
         ) from error
-    return mitsuba
 
 
-def llvm_advice() -> str:
-    """How to get one that works."""
-    match sys.platform:
-        case "linux":
-            return "Run pip install karellen-llvm-core"
-        case "darwin":
-            return "Run brew install llvm"
-        case _:
-            return "Install LLVM from https://releases.llvm.org"
+def _warn_on_stderr(mi: Any) -> None:
+    """Mitsuba logs to stdout, which is for data."""
 
+    class Stderr(mi.Appender):
+        def append(self, _: Any, text: str) -> None:
+            print(text, file=sys.stderr)
 
-def _in_environment() -> Iterator[Llvm]:
-    try:
-        files = importlib.metadata.files("karellen-llvm-core") or []
-        version = importlib.metadata.version("karellen-llvm-core")
-    except importlib.metadata.PackageNotFoundError:
-        return
-    for file in files:
-        if file.name in ("libLLVM.so", "libLLVM.dylib"):
-            path = Path(str(file.locate())).resolve()
-            yield Llvm(path, int(version.split(".")[0]), "karellen-llvm-core")
+        def log_progress(self, *_: Any) -> None:
+            pass
 
-
-def _on_system() -> list[Llvm]:
-    paths = [
-        path
-        for pattern in _SYSTEM_LIBRARIES.get(sys.platform, ())
-        for path in Path("/").glob(pattern.lstrip("/"))
-    ]
-    found = [Llvm(path, _version(path), "system") for path in paths]
-    return sorted(found, key=lambda llvm: (llvm.version or 0, str(llvm.path)), reverse=True)
-
-
-def _version(path: Path) -> int | None:
-    resolved = str(path.resolve())
-    match = re.search(r"libLLVM(?:\.so\.|-)(\d+)|llvm[-/](\d+)", resolved)
-    return int(match[1] or match[2]) if match else None
+    logger = mi.logger()
+    logger.clear_appenders()
+    logger.add_appender(Stderr())
