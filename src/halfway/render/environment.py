@@ -73,9 +73,9 @@ def _exr(path: Path, content: bytes) -> np.ndarray:
         _require_modest(max(0, right - left + 1) * max(0, bottom - top + 1), content)
     try:
         bitmap: Any = mi.Bitmap(str(path))
-    except (RuntimeError, MemoryError) as error:
+        names = [field.name for field in bitmap.struct_()]
+    except (RuntimeError, MemoryError, UnicodeDecodeError) as error:
         raise _Fault("is damaged, or of a kind that is not read: expected OpenEXR") from error
-    names = [field.name for field in bitmap.struct_()]
     values = np.array(bitmap).reshape(bitmap.height(), bitmap.width(), len(names))
     return values[..., _channels(names)].astype(np.float32)
 
@@ -180,9 +180,9 @@ def _upright(picture: np.ndarray, first: bytes, second: bytes) -> np.ndarray:
 
 
 def _require_modest(n_pixels: int, content: bytes) -> None:
-    """Refuse a picture that states more pixels than its bytes can stand for, before memory is taken for them."""
+    """Refuse a picture that states none, or more pixels than its bytes can stand for, before memory is taken for them."""
     most = min(LARGEST_PICTURE, _PIXELS_PER_BYTE * len(content))
-    if n_pixels > most:
+    if not 0 < n_pixels <= most:
         raise _Fault(
-            f"states {n_pixels:,} pixels in {len(content):,} bytes: expected at most {most:,}"
+            f"states {n_pixels:,} pixels in {len(content):,} bytes: expected 1 to {most:,}"
         )
