@@ -58,17 +58,17 @@ def _kinds() -> list[str]:
 def _fuzz(kind: str, folder: Path, seconds: int) -> None:
     import atheris
 
+    found = folder / kind
+    found.mkdir(parents=True, exist_ok=True)
+    place = Path(tempfile.mkdtemp(prefix=f"fuzz-{kind}-"))
     with atheris.instrument_imports(include=["halfway", "zipfile", "json"]):
         from hostile import subjects
 
         from halfway.errors import HalfwayError
 
-    found = folder / kind
-    found.mkdir(parents=True, exist_ok=True)
-    place = Path(tempfile.mkdtemp(prefix=f"fuzz-{kind}-"))
-    subject = subjects(place / "valid")[kind]
-    (found / "valid").write_bytes(subject.valid)
-    subject.read(subject.valid, place)  # loads what loads when it is first used
+        subject = subjects(place / "valid")[kind]
+        (found / "valid").write_bytes(subject.valid)
+        subject.read(subject.valid, place)  # loads what loads when it is first used
     warnings.simplefilter("ignore")  # that a damaged file warns is no fault
     _limit_memory()
 

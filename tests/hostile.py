@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 
 import h5py
 import numpy as np
+from exr_files import exr
 
 from halfway import Brdf, Grid, TabularBrdf
 from halfway.fetch.unpack import unpack
@@ -53,7 +54,11 @@ def subjects(folder: Path) -> dict[str, Subject]:
         "nbrdf": Subject(_nbrdf(), _read_brdf),
         "zip": Subject(_zip(folder), _find),
         "unpack": Subject(_zip(folder), _unpack),
-        "ply": Subject(_PLY, _read_ply),
+        "ply": Subject(_PLY, _read_mesh(".ply")),
+        "ply-text": Subject(_PLY_TEXT, _read_mesh(".ply")),
+        "obj": Subject(_OBJ, _read_mesh(".obj")),
+        "hdr": Subject(_HDR, _read_environment(".hdr")),
+        "exr": Subject(_EXR, _read_environment(".exr")),
         "library": Subject((path / "library.json").read_bytes(), _library_with("library.json", path)),
         "tables": Subject(tables.read_bytes(), _library_with(tables.name, path)),
         "recipe": Subject(json.dumps(recipe).encode(), _materials("recipe.json")),
@@ -75,12 +80,30 @@ def _read_brdf(content: bytes, folder: Path) -> None:
     _use(read_brdf(folder / "spoilt"))
 
 
-def _read_ply(content: bytes, folder: Path) -> None:
-    from halfway.render.ply import read_ply
+def _read_mesh(suffix: str) -> Callable[[bytes, Path], None]:
+    def read(content: bytes, folder: Path) -> None:
+        from halfway.render.assets import read_mesh
 
-    (folder / "spoilt.ply").write_bytes(content)
-    mesh = read_ply(folder / "spoilt.ply")
-    assert mesh.positions[mesh.faces].shape == (len(mesh.faces), 3, 3)
+        (folder / f"spoilt{suffix}").write_bytes(content)
+        mesh = read_mesh(folder / f"spoilt{suffix}")
+        assert mesh.positions[mesh.faces].shape == (len(mesh.faces), 3, 3)
+        assert np.isfinite(mesh.positions).all()
+        assert np.isfinite(mesh.normals).all()
+
+    return read
+
+
+def _read_environment(suffix: str) -> Callable[[bytes, Path], None]:
+    def read(content: bytes, folder: Path) -> None:
+        from halfway.render.variant import load_mitsuba
+
+        load_mitsuba()
+        from halfway.render.environment import read_environment
+
+        (folder / f"spoilt{suffix}").write_bytes(content)
+        assert (read_environment(folder / f"spoilt{suffix}") >= 0).all()
+
+    return read
 
 
 def _find(content: bytes, folder: Path) -> None:
@@ -150,12 +173,25 @@ def _use(brdf: Brdf) -> None:
 # Valid files
 
 _PLY = (
-    b"ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
-    b"element face 1\nproperty list uchar int vertex_indices\nend_header\n"
-    + np.array([0, 0, 0, 1, 0, 0, 0, 1, 0], "<f4").tobytes()
-    + b"\3"
-    + np.array([0, 1, 2], "<i4").tobytes()
+    b"ply\nformat binary_little_endian 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\n"
+    b"element face 2\nproperty list uchar int vertex_indices\nproperty list uchar float texcoord\nend_header\n"
+    + np.array([0, 0, 0, 2, 0, 0, 2, 2, 0, 1, 1, 0, 0, 0, 1], "<f4").tobytes()
+    + b"\3" + np.array([0, 1, 4], "<i4").tobytes() + b"\1" + np.array([0.5], "<f4").tobytes()
+    + b"\4" + np.array([1, 2, 3, 0], "<i4").tobytes() + b"\0"
+)  # fmt: skip
+_PLY_TEXT = (
+    b"ply\nformat ascii 1.0\nelement vertex 4\nproperty double x\nproperty double y\nproperty double z\nproperty uchar red\n"
+    b"element face 2\nproperty list uchar int vertex_index\nend_header\n"
+    b"0 0 0 1\n2 0 0 2\n2 2 .5 3\n1 1e-1 0 4\n4 0 1 2 3\n3 0 2 1\n"
 )
+_OBJ = b"v 0 0 0\nv 2 0 0 \\\n1 1 1\nv 2 2 0\nv 1 .5 0\nvn 0 0 1\nf 1//1 2//1 3//1 4//1\nf -1/2 -2/2/ -3 # face\n"
+_HDR = (
+    b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n+X 2 -Y 9\n"
+    + 2 * (b"\2\2\0\x09" + b"\x89\x40" + b"\x09abcdefghi" + b"\x85\x10\x84\x20" + b"\x89\x80")
+)  # fmt: skip
+
+
+_EXR = exr([(f"sky.{c}", 2, np.linspace(0, 1, 32).reshape(4, 8)) for c in "RGBZ"])
 
 
 def _nodes(*shape: int) -> np.ndarray:

@@ -14,6 +14,7 @@ from halfway.brdf.quality import Quality
 from halfway.errors import OutputError
 from halfway.export.fits import write_fit
 from halfway.export.gltf import to_glb, to_gltf
+from halfway.export.materialx import identifier
 from halfway.fit import Fit, Gltf, OpenPbr, Principled
 from halfway.fit.model import AnalyticModel
 
@@ -58,6 +59,35 @@ def test_a_materialx_document_is_valid_and_holds_the_fit(model, node, tmp_path):
     (material,) = document.getMaterialNodes()
     assert material.getConnectedNode("surfaceshader").getName() == surface.getName()
     assert "40.0 dB" in material.getDocString()
+
+
+NAMES = ["gold-paint", "my_gold", "001", "3M tape (v2)", "0_5", "-1", "金属", "銀", "é", "e\u0301", "", "_", "__", "a b", "a.b", "a:b", "a/b", "class",
+         "float", "Materials", "surface", "x" * 300, "line\nbreak", "\x1b[31m", "&<>\"'", "\udc80"]  # fmt: skip
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_name_in_materialx_is_a_usd_identifier_beside_the_true_one(name, tmp_path):
+    """USD's MaterialX reader makes a prim of each name: the binding must parse, and a prim of that name be made."""
+    from pxr import Sdf, Usd
+
+    mx: Any = import_module("MaterialX")
+    write_fit(tmp_path / "a.mtlx", a_fit(OPENPBR, name))
+    document = mx.createDocument()
+    mx.readFromXmlFile(document, str(tmp_path / "a.mtlx"))
+    (material,) = document.getMaterialNodes()
+    (surface,) = document.getNodes("open_pbr_surface")
+    for made in (material.getName(), surface.getName()):
+        assert made.isascii()
+        assert Sdf.Path.IsValidIdentifier(made)
+        assert Usd.Stage.CreateInMemory().DefinePrim(f"/MaterialX/Materials/{made}").IsValid()
+    shown = "".join(c if c.isprintable() else "\ufffd" for c in name)
+    assert material.getAttribute("uiname") == shown
+    assert material.getDocString().startswith(f"{shown}, as OpenPBR")
+
+
+def test_names_that_look_alike_stay_apart():
+    assert len({identifier(name) for name in NAMES}) == len(NAMES)
+    assert [identifier(name) for name in ("gold-paint", "my_gold", "001")] == ["gold_paint", "my_gold", "_001"]  # fmt: skip
 
 
 @pytest.mark.parametrize("model", [PLAIN, RICH], ids=["plain", "rich"])

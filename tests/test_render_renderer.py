@@ -94,6 +94,19 @@ def test_a_mesh_stands_in_for_the_teapot(tmp_path):
     assert picture[16, 16, 0] > 2 * picture[16, 16, 1] > 0
 
 
+def test_a_sheet_shows_the_material_from_both_sides(tmp_path):
+    """An upright square that faces the camera, or turns its back to it."""
+    path = tmp_path / "sheet.obj"
+    pictures = []
+    for order in ("1 2 3 4", "4 3 2 1"):
+        path.write_text(f"v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf {order}")
+        pictures.append(Renderer("teapot", size=(32, 32), spp=16, mesh=path).picture(RED))
+    front, back = pictures
+    assert front[16, 16, 0] > 2 * front[16, 16, 1] > 0
+    # Of 16 samples each, from frames that are turned against each other.
+    assert_allclose(back[16, 16], front[16, 16], rtol=0.2)
+
+
 @pytest.mark.parametrize(
     ("options", "message"),
     [

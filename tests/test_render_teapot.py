@@ -71,7 +71,7 @@ def test_a_mesh_that_is_inside_out_is_turned():
     mesh = tessellate(4)
     y_up = mesh.positions[:, [0, 2, 1]] * np.array([1, 1, -1])
     for faces in (mesh.faces, mesh.faces[:, ::-1]):
-        turned = outward(y_up, np.zeros((0, 3)), faces)
+        turned = outward(y_up, np.zeros(y_up.shape), faces)
         assert_allclose(turned.positions, mesh.positions)
         agree = np.einsum("ij,ij->i", turned.normals, mesh.normals)
         assert np.median(agree) > 0.9

@@ -4,10 +4,14 @@ OpenPBR goes to the node ``open_pbr_surface``, glTF's model to ``gltf_pbr``; par
 Colours are linear with the primaries of sRGB (``lin_rec709``). Every document is validated by the MaterialX library against its
 own node definitions before it is given out.
 
+Names are USD identifiers as well, since each becomes the name of a prim: `identifier`. The true one stands in ``uiname`` and ``doc``.
+
 Source: MaterialX specification 1.39, Academy Software Foundation.
 """
 
+import re
 from functools import cache
+from hashlib import sha256
 from importlib import import_module
 from typing import Any
 
@@ -34,7 +38,7 @@ def to_materialx(fit: Fit) -> str:
     mx: Any = import_module("MaterialX")
     document = mx.createDocument()
     document.setColorSpace("lin_rec709")
-    name = mx.createValidName(fit.name or "material")
+    name = identifier(fit.name or "material")
     surface = document.addNode(NODES[fit.model_name], f"{name}_surface", "surfaceshader")
     for parameter, value in fit.model.parameters().items():
         colour = isinstance(value, list)
@@ -42,10 +46,28 @@ def to_materialx(fit: Fit) -> str:
             parameter, mx.Color3(*value) if colour else value, "color3" if colour else "float"
         )
     material = document.addMaterialNode(name, surface)
-    material.setDocString(f"{fit.name}, {fit.summary}")
+    true_name = "".join(c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in fit.name)
+    material.setAttribute("uiname", true_name)
+    material.setDocString(f"{true_name}, {fit.summary}")
     text = mx.writeToXmlString(document)
     _require_valid(text, fit.name)
     return text
+
+
+def identifier(name: str) -> str:
+    """A name that MaterialX and USD take: ASCII letters, digits and ``_``, no digit first.
+
+    ``-`` becomes ``_``, and a digit gets one before it. Where more is lost, eight digits of a checksum of the name follow, so that names
+    that look alike stay apart.
+
+    >>> identifier("gold-paint"), identifier("001"), identifier("gold paint")
+    ('gold_paint', '_001', 'gold_paint_e520cd29')
+    """
+    clean = re.sub(r"[^A-Za-z0-9_]", "_", name)
+    if re.fullmatch(r"[A-Za-z0-9_-]*[A-Za-z0-9][A-Za-z0-9_-]*", name) is None:
+        checksum = sha256(name.encode(errors="surrogatepass")).hexdigest()[:8]
+        clean = f"{clean.strip('_') or 'material'}_{checksum}"
+    return f"_{clean}" if clean[0].isdecimal() else clean
 
 
 def _require_valid(text: str, name: str) -> None:

@@ -34,15 +34,18 @@ def joined(meshes: Sequence[Mesh]) -> Mesh:
 
 
 def placed(mesh: Mesh, place: Placed) -> Mesh:
-    """The mesh where a scene wants it: scaled to its height, turned, the middle of its foot at its place."""
-    low, high = mesh.positions.min(axis=0), mesh.positions.max(axis=0)
-    foot = np.array([*(low + high)[:2] / 2, low[2]])
+    """The mesh where a scene wants it: as large as there is room for it, turned, the middle of its foot at its place."""
+    positions = mesh.positions.astype(float)
+    low, high = positions.min(axis=0), positions.max(axis=0)
+    positions -= np.array([*(low + high)[:2] / 2, low[2]])
+    width = 2 * np.hypot(positions[:, 0], positions[:, 1]).max()
+    scale = 1 / max((high - low)[2] / place.height, width / place.width)
     turn = np.radians(place.turn_degrees)
     c, s = np.cos(turn), np.sin(turn)
     rotation = np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]])
-    scale = place.height / (high[2] - low[2])
-    positions = (mesh.positions - foot) * scale @ rotation.T + np.array(place.at)
-    return Mesh.of(positions, mesh.normals @ rotation.T, mesh.faces)
+    return Mesh.of(
+        positions * scale @ rotation.T + np.array(place.at), mesh.normals @ rotation.T, mesh.faces
+    )
 
 
 def sweep(
@@ -73,19 +76,29 @@ def sweep(
 def outward(positions: np.ndarray, normals: np.ndarray, faces: np.ndarray) -> Mesh:
     """A mesh of a file with y up, turned to z up; faces turned so that the volume inside is positive.
 
-    Normals that are missing (of another shape than the positions) are made from the faces, weighted by area.
+    Normals are turned to the side of their faces, whatever a file says. Where one is missing, of length 0, it is made from
+    the faces, weighted by area.
     """
-    positions = positions[:, [0, 2, 1]] * np.array([1, -1, 1])
-    a, b, c = np.moveaxis(positions[faces].astype(float), 1, 0)
+    positions, normals = (
+        v[:, [0, 2, 1]] * np.array([1.0, -1.0, 1.0]) for v in (positions, normals)
+    )
+    a, b, c = np.moveaxis(positions[faces], 1, 0)
     across = np.cross(b - a, c - a)
-    inside_out = np.einsum("ij,ij->", a - positions.mean(axis=0), across) < 0
-    if inside_out:
+    if np.einsum("ij,ij->", a - positions.mean(axis=0), across) < 0:
         faces, across = faces[:, ::-1], -across
-    if normals.shape == positions.shape:
-        normals = normals[:, [0, 2, 1]] * np.array([1, -1, 1]) * (-1 if inside_out else 1)
-    else:
-        normals = np.zeros(positions.shape)
-        for corner in range(3):
-            np.add.at(normals, faces[:, corner], across)
+    made = _made(len(positions), faces, across)
+    given = np.linalg.norm(normals, axis=1, keepdims=True) > 0
+    other_side = np.einsum("ij,ij->i", normals, made)[:, None] < 0
+    normals = np.where(given, np.where(other_side, -normals, normals), made)
     length = np.linalg.norm(normals, axis=1, keepdims=True)
     return Mesh.of(positions, normals / np.where(length > 0, length, 1), faces)
+
+
+def _made(n_vertices: int, faces: np.ndarray, across: np.ndarray) -> np.ndarray:
+    """A normal for each vertex, of its faces; of one of them where they cancel, as those of a sheet that is there from both sides."""
+    made, one = np.zeros((2, n_vertices, 3))
+    for corner in range(3):
+        np.add.at(made, faces[:, corner], across)
+        one[faces[:, corner]] = across
+    size = np.abs(made).max(axis=1, keepdims=True)
+    return np.where(size > 1e-6 * np.abs(one).max(axis=1, keepdims=True), made, one)

@@ -1,26 +1,27 @@
-r"""PLY files of triangles, text or binary.
+r"""PLY files of polygons, text or binary.
 
     ply
     format binary_little_endian 1.0            or binary_big_endian, or ascii
     element vertex N                           then each property of a vertex, in order
     property float x
     element face M
-    property list uchar int vertex_indices     a count (3) and as many indices
+    property list uchar int vertex_indices     a count and as many indices
     end_header
 
-and then the elements, in the header's order. Sizes are checked against the file before memory is taken, and indices against the
-vertices: the renderer's own reader believes both, and a wrong one ends the process.
+and then the elements, in the header's order. Elements and properties of other names (colours, texture coordinates) are passed over. A
+text is read as the same bytes with a double for every number. Sizes are checked against the file before memory is taken: the renderer's
+own reader believes them, and a wrong one ends the process.
 
 Source: G. Turk, "The PLY Polygon File Format", 1994.
 """
 
-from dataclasses import dataclass
-from pathlib import Path
+import re
+import struct
+from typing import NamedTuple
 
 import numpy as np
 
-from ..errors import RenderError
-from .mesh import Mesh, outward
+from .polygons import MeshFault, Polygons
 
 _TYPES = {
     name: code
@@ -30,134 +31,192 @@ _TYPES = {
     }.items()
     for name in names.split()
 }  # fmt: skip
-_ORDERS = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
-_INDICES = ("vertex_indices", "vertex_index")
+_ORDERS = {"binary_little_endian": "<", "binary_big_endian": ">"}
+_HEADER = re.compile(
+    rb"ply[ \t]*(?:\r\n|\n|\r)(.*?)[\r\n]end_header[ \t]*(?:\r\n|\n|\r)", re.DOTALL
+)
 _LONGEST_HEADER = 1 << 16
+LARGEST_INDEX = 1 << 32
 
 
-class _PlyError(ValueError):
-    """What is wrong, as the end of a sentence."""
+class _Property(NamedTuple):
+    name: str
+    dtype: np.dtype
+    length: np.dtype | None
+    """Of a list: the type of the number that says how long it is."""
+
+    @property
+    def least(self) -> int:
+        """Bytes in a row, or more."""
+        return (self.dtype if self.length is None else self.length).itemsize
 
 
-@dataclass(frozen=True)
-class _Element:
+class _Element(NamedTuple):
     name: str
     size: int
-    dtype: np.dtype
-    """Of one row; the list of a face is a count and three indices."""
+    properties: list[_Property]
 
 
-def read_ply(path: Path) -> Mesh:
-    """The triangles of a PLY file, y up in the file, faces turned outward.
+class _Column(NamedTuple):
+    """Where a property stands in each row of its element."""
+
+    property: _Property
+    offsets: np.ndarray
+
+
+def parse_ply(content: bytes) -> Polygons:
+    """The polygons of a PLY file.
 
     Raises
     ------
-    RenderError
-        When it is no PLY file, is truncated, has other faces than triangles, or names vertices that it has not.
+    MeshFault
+        When it is no PLY file, is truncated, or has no vertices or faces.
     """
-    try:
-        return outward(*_arrays(path.read_bytes()))
-    except _PlyError as error:
-        raise RenderError(
-            f"{path} {error}. Export it again, or convert it with another program."
-        ) from error
-
-
-def _arrays(content: bytes) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Positions, normals (empty where there are none) and faces."""
-    elements, order, start = _header(content)
-    rows = _text_rows(content[start:], elements) if order == "" else _rows(content, start, elements)
-    if not {"vertex", "face"} <= set(rows):
-        raise _PlyError("has no vertices or no faces: expected both")
-    vertices, faces = rows["vertex"], rows["face"]
-    if (faces["count"] != 3).any():
-        raise _PlyError("has faces of other than three corners: expected triangles")
-    indices = faces["corners"].astype(np.int64)
-    if not len(indices) or indices.min() < 0 or indices.max() >= len(vertices):
-        span = f"{indices.min()} to {indices.max()}" if len(indices) else "none"
-        raise _PlyError(
-            f"has {len(indices):,} triangles of vertices {span}: expected some, of vertices 0 to {len(vertices) - 1:,}"
-        )
-    names = vertices.dtype.names or ()
-    positions, normals = (
-        np.stack([vertices[axis] for axis in axes], axis=-1).astype(float) if set(axes) <= set(names) else np.zeros((0, 3))
+    elements, data = _header(content)
+    columns: dict[str, dict[str, _Column]] = {}
+    end = 0
+    for element in elements:
+        columns[element.name], end = _columns(data, end, element)
+    vertex, face = (columns.get(name, {}) for name in ("vertex", "face"))
+    faces = face.get("vertex_indices") or face.get("vertex_index")
+    if faces is None or not {"x", "y", "z"} <= set(vertex):
+        raise MeshFault("has no vertices x, y, z or no faces vertex_indices: expected both")
+    points, normals = (
+        np.stack([_scalars(data, vertex[axis]) for axis in axes], axis=-1).astype(float)
+        if set(axes) <= set(vertex)
+        else np.zeros((0, 3))
         for axes in (("x", "y", "z"), ("nx", "ny", "nz"))
-    )  # fmt: skip
-    if not len(positions) or not np.isfinite(positions).all():
-        raise _PlyError("has vertices without a finite place: expected finite x, y and z")
-    return positions, normals, indices
+    )
+    corners, sizes = _lists(data, faces)
+    of_normal = corners if len(normals) else np.full(len(corners), -1)
+    return Polygons(points, normals, corners, of_normal, sizes)
 
 
-def _header(content: bytes) -> tuple[list[_Element], str, int]:
-    """The elements, the byte order ("" for text), and where the data begin."""
-    end = content.find(b"end_header", 0, _LONGEST_HEADER)
-    start = content.find(b"\n", end) + 1
-    lines = content[: max(end, 0)].decode("ascii", errors="replace").split("\n")
-    if not content.startswith(b"ply") or end < 0 or not start:
-        raise _PlyError("does not begin as a PLY file: expected ply ... end_header")
-    order, elements = None, list[_Element]()
-    fields: list[tuple[str, str] | tuple[str, str, int]] = []
-    for words in map(str.split, lines[1:]):
+def _header(content: bytes) -> tuple[list[_Element], bytes]:
+    """The elements, and the data as bytes that they describe."""
+    found = _HEADER.match(content, 0, _LONGEST_HEADER)
+    if found is None:
+        raise MeshFault("does not begin as a PLY file: expected ply ... end_header")
+    lines = [line.split() for line in found[1].decode("ascii", errors="replace").splitlines()]
+    data = content[found.end() :]
+    match next((line for line in lines if line[:1] == ["format"]), []):
+        case ["format", "ascii", "1.0"]:
+            return _elements(lines, None), _numbers(data)
+        case ["format", kind, "1.0"] if kind in _ORDERS:
+            return _elements(lines, _ORDERS[kind]), data
+        case line:
+            raise MeshFault(
+                f"is of the format {' '.join(line[1:])[:60]!r}: expected ascii, {' or '.join(_ORDERS)}, 1.0"
+            )
+
+
+def _elements(lines: list[list[str]], order: str | None) -> list[_Element]:
+    """What the header describes; without a byte order, as doubles."""
+
+    def dtype(name: str) -> np.dtype:
+        return np.dtype(order + _TYPES[name] if order else "<f8")
+
+    elements: list[_Element] = []
+    for words in lines:
         match words:
-            case ["format", kind, "1.0"] if kind in _ORDERS:
-                order = _ORDERS[kind]
             case ["element", name, size] if size.isdecimal() and len(size) < 19:
-                fields = []
-                elements.append(_Element(name, int(size), np.dtype([])))
-            case ["property", "list", count, index, name] if elements and {count, index} <= _TYPES.keys() and name in _INDICES:  # fmt: skip
-                fields += [("count", _TYPES[count]), ("corners", _TYPES[index], 3)]
+                elements.append(_Element(name, int(size), []))
+            case ["property", "list", count, type_, name] if (
+                elements and {count, type_} <= _TYPES.keys()
+            ):
+                elements[-1].properties.append(_Property(name, dtype(type_), dtype(count)))
             case ["property", type_, name] if elements and type_ in _TYPES:
-                fields.append((name, _TYPES[type_]))
-            case ["comment" | "obj_info", *_] | []:
+                elements[-1].properties.append(_Property(name, dtype(type_), None))
+            case ["comment" | "obj_info" | "format", *_] | []:
                 continue
             case _:
-                raise _PlyError(f"has the line {' '.join(words)[:60]!r} in its header, which is none that is read")  # fmt: skip
-        if elements and fields:
-            elements[-1] = _with_fields(elements[-1], fields, order or "")
-    if order is None:
-        raise _PlyError("states no format: expected ascii, binary_little_endian or binary_big_endian")  # fmt: skip
-    return elements, order, start
+                raise MeshFault(
+                    f"has the line {' '.join(words)[:60]!r} in its header, which is none that is read"
+                )
+    return elements
 
 
-def _with_fields(element: _Element, fields: list, order: str) -> _Element:
-    names = [field[0] for field in fields]
-    if len(set(names)) < len(names):
-        raise _PlyError(f"names a property of {element.name[:20]!r} twice")
-    dtype = np.dtype([(name, order + code, *shape) for name, code, *shape in fields])
-    return _Element(element.name, element.size, dtype)
-
-
-def _rows(content: bytes, start: int, elements: list[_Element]) -> dict[str, np.ndarray]:
-    rows: dict[str, np.ndarray] = {}
-    for element in elements:
-        end = start + element.size * element.dtype.itemsize
-        if end > len(content):
-            raise _PlyError(
-                f"ends after {len(content):,} bytes, its header says {end:,} or more: it is truncated, or has other faces than triangles"
-            )
-        if element.dtype.itemsize:
-            rows[element.name] = np.frombuffer(content, element.dtype, element.size, start)
-        start = end
-    return rows
-
-
-def _text_rows(content: bytes, elements: list[_Element]) -> dict[str, np.ndarray]:
-    """The same of text, a number for each value."""
+def _numbers(text: bytes) -> bytes:
+    """The numbers of a text, as doubles."""
     try:
-        values = np.array(content.split(), np.float64)
+        return np.array(text.split(), "<f8").tobytes()
     except ValueError as error:
-        raise _PlyError("has something else than numbers after its header") from error
-    rows: dict[str, np.ndarray] = {}
-    start = 0
-    for element in elements:
-        flat = np.dtype([(name, "f8", *element.dtype[name].shape) for name in element.dtype.names or ()])  # fmt: skip
-        width = flat.itemsize // 8
-        end = start + element.size * width
-        if end > len(values):
-            raise _PlyError(
-                f"has {len(values):,} numbers, its header says {end:,} or more: it is truncated, or has other faces than triangles"
-            )
-        if width:
-            rows[element.name] = values[start:end].view(flat)
-        start = end
-    return rows
+        raise MeshFault("has something else than numbers after its header") from error
+
+
+def _columns(data: bytes, start: int, element: _Element) -> tuple[dict[str, _Column], int]:
+    """Where the properties of an element stand that starts there, and where it ends."""
+    properties = element.properties
+    if len({p.name for p in properties}) < len(properties):
+        raise MeshFault(f"names a property of {element.name[:20]!r} twice")
+    least = [p.least for p in properties]
+    end = start + element.size * sum(least)
+    _require_room(data, end)
+    if any(p.length is not None for p in properties):
+        offsets, end = _walk(data, start, element)
+    else:
+        rows = start + sum(least) * np.arange(element.size if properties else 0)
+        offsets = [rows + before for before in np.cumsum(least) - least]
+    columns = map(_Column, properties, offsets)
+    return {column.property.name: column for column in columns}, end
+
+
+def _walk(data: bytes, start: int, element: _Element) -> tuple[list[np.ndarray], int]:
+    """The offsets of each property, and the end, of an element whose rows differ in length."""
+    steps = [(p.dtype.itemsize, _reader(p.length)) for p in element.properties]
+    offsets: list[list[int]] = [[] for _ in steps]
+    at = start
+    for _ in range(element.size):
+        for column, (size, count) in zip(offsets, steps, strict=True):
+            column.append(at)
+            if count is None:
+                at += size
+                continue
+            _require_room(data, at + count.size)
+            n = count.unpack_from(data, at)[0]
+            if not 0 <= n <= len(data):
+                raise MeshFault(
+                    f"has a list of {n} values: expected none or more, and no more than the file has"
+                )
+            at += count.size + size * int(n)
+    _require_room(data, at)
+    return [np.array(column, np.int64) for column in offsets], at
+
+
+def _reader(dtype: np.dtype | None) -> struct.Struct | None:
+    if dtype is None:
+        return None
+    return struct.Struct((">" if dtype.byteorder == ">" else "<") + dtype.char)
+
+
+def _require_room(data: bytes, end: int) -> None:
+    if end > len(data):
+        raise MeshFault(
+            f"has {len(data) / end:.1%} of what its header says, or less: it is truncated"
+        )
+
+
+def _values(data: bytes, dtype: np.dtype, offsets: np.ndarray) -> np.ndarray:
+    """The numbers of a type that stand at these offsets."""
+    everywhere = np.ndarray(max(len(data) - dtype.itemsize + 1, 0), dtype, data, strides=(1,))
+    return everywhere[offsets]
+
+
+def _scalars(data: bytes, column: _Column) -> np.ndarray:
+    if column.property.length is not None:
+        raise MeshFault(f"has a list {column.property.name} for each vertex: expected a number")
+    return _values(data, column.property.dtype, column.offsets)
+
+
+def _lists(data: bytes, column: _Column) -> tuple[np.ndarray, np.ndarray]:
+    """The values of all lists, one after another, and how many each has."""
+    dtype, count = column.property.dtype, column.property.length
+    if count is None:
+        raise MeshFault(f"has one {column.property.name} for each face: expected a list")
+    sizes = _values(data, count, column.offsets).astype(np.int64)
+    nth = np.arange(sizes.sum()) - np.repeat(np.cumsum(sizes) - sizes, sizes)
+    values = _values(
+        data, dtype, np.repeat(column.offsets + count.itemsize, sizes) + dtype.itemsize * nth
+    )
+    # What is no number is no index.
+    return np.where(np.abs(values) < LARGEST_INDEX, values, -1).astype(np.int64), sizes

@@ -146,7 +146,7 @@ class Renderer:
     def fingerprint(self) -> str:
         """Letters that change when anything but the material changes the picture: 32 hexadecimal digits."""
         digest = sha256(
-            f"1 {self.scene} {self.size} {self.spp} {self.seed} {self.bounces} {self._denoise} {self.exact}".encode()
+            f"2 {self.scene} {self.size} {self.spp} {self.seed} {self.bounces} {self._denoise} {self.exact}".encode()
         )
         for path in self._files:
             digest.update(b"none" if path is None else path.read_bytes())

@@ -22,9 +22,15 @@ class Placed:
     at: Vector = (0.0, 0.0, 0.0)
     """Where the middle of its foot stands."""
     height: float = 1.0
+    """What stands here is no higher, and no wider than `width`."""
     turn_degrees: float = 0.0
     """About the vertical, counter-clockwise seen from above."""
     material: int = 0
+
+    @property
+    def width(self) -> float:
+        """The diameter of the room for it: the teapot's own, or a sphere's."""
+        return self.height * (2.05 if self.shape == "teapot" else 1.0)
 
 
 @dataclass(frozen=True)

@@ -9,8 +9,9 @@ from typing import Any
 import mitsuba as mi
 import numpy as np
 
-from .assets import read_environment, read_mesh
+from .assets import read_mesh
 from .camera import Window, camera_to_world, fov_degrees, window
+from .environment import read_environment
 from .exposure import Exposure, Layer
 from .mesh import Mesh, placed, sweep
 from .scenes import Camera, Material, Placed, PointLight, Scene
@@ -72,9 +73,8 @@ class Stage:
         for i, (place, mesh) in enumerate(zip(self._scene.objects, self._meshes, strict=True)):
             description[f"object_{i}"] = _shape(place, mesh, bsdfs[place.material])
         if ground:
-            paper = {"type": "diffuse", "reflectance": PAPER}
-            bsdf = mi.load_dict({"type": "twosided", "bsdf": paper})
-            description["ground"] = _mesh("ground", sweep(), bsdf)
+            paper = mi.load_dict({"type": "diffuse", "reflectance": PAPER})
+            description["ground"] = _mesh("ground", sweep(), paper)
         return [mi.load_dict({**description, "light": light}) for light in self._lights]
 
     def _window(self) -> Window:
@@ -134,7 +134,7 @@ def _shape(place: Placed, mesh: Mesh | None, bsdf: Any) -> Any:
 
 def _mesh(kind: str, mesh: Mesh, bsdf: Any) -> Any:
     props = mi.Properties()
-    props["mesh_bsdf"] = bsdf
+    props["mesh_bsdf"] = _both_sides(bsdf)
     shape = mi.Mesh(
         kind, len(mesh.positions), len(mesh.faces), has_vertex_normals=True, props=props
     )
@@ -149,6 +149,13 @@ def _mesh(kind: str, mesh: Mesh, bsdf: Any) -> Any:
         parameters[name] = buffer(array.ravel())
     parameters.update()
     return shape
+
+
+def _both_sides(bsdf: Any) -> Any:
+    """Sheets, open shapes and meshes whose faces point anywhere show the material from behind too."""
+    if mi.has_flag(bsdf.flags(), mi.BSDFFlags.BackSide):
+        return bsdf
+    return mi.load_dict({"type": "twosided", "bsdf": bsdf})
 
 
 def _lights(scene: Scene, env: Path | None) -> list[dict[str, Any]]:
