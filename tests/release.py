@@ -24,6 +24,14 @@ NOT_IN_WHEEL = ("tests/", "docs/", "viewer/", "examples/")
 BY_OTHER_MEANS = r"python3 -m venv|\. new-materials|pip install|halfway view"
 NOT_RUN = r"halfway fetch|merl\.brdflib|library build merl"
 """Downloads."""
+READ_ONLY = (
+    'halfway mix "gold-paint=0.7, teflon=0.3" -o elsewhere.binary',
+    "halfway check elsewhere.binary",
+    "halfway route teflon chrome -n 2 -o elsewhere --format merl",
+    "halfway fit builtin:merl-abc:teflon --model gltf -o elsewhere.json",
+    "halfway render elsewhere.binary -o elsewhere.png --size 32 --spp 2",
+)
+"""For an installation that may not be written, of a user without a home."""
 SMALLER = {"halfway render": "--size 32 --spp 2"}
 
 
@@ -40,6 +48,8 @@ def main() -> None:
         for line in tutorial():
             step(line, lambda line=line: run(line, env, empty))
         step("halfway view", lambda: view(env, empty))
+        for line in READ_ONLY:
+            step(f"read-only: {line}", lambda line=line: run_read_only(line, env, empty))
 
 
 def build(work: Path) -> Path:
@@ -95,6 +105,20 @@ def run(line: str, env: Path, folder: Path) -> None:
         HERE.append(HERE[-1] / words[1] if HERE else folder / words[1])
         return
     call(str(env / "bin" / words[0]), *words[1:], cwd=HERE[-1] if HERE else folder)
+
+
+def run_read_only(line: str, env: Path, folder: Path) -> None:
+    """One line as on a cluster node or in a container: nothing but the folder can be written."""
+    command, *words = shlex.split(line)
+    words = [str(env / "bin" / command), *words]
+    if os.geteuid() == 0:  # who may write whatever its mode is
+        lock = 'mount --bind "$0" "$0" && mount -o remount,ro,bind "$0" && exec "$@"'
+        words = ["unshare", "-m", "bash", "-c", lock, str(env), *words]
+    else:
+        for path in (env, *env.rglob("*")):
+            if not path.is_symlink():
+                path.chmod(path.stat().st_mode & ~0o222)
+    call("env", "HOME=/proc/none", *words, cwd=folder)
 
 
 HERE: list[Path] = []

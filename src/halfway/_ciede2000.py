@@ -10,8 +10,9 @@ of the unit vectors. All in float64, so that near colours in float32 keep their 
 
 import math
 
-import numba
 import numpy as np
+
+from .compiled import compiled
 
 _ROOT_POWER = 25.0**7
 _SIXTY = math.radians(60)
@@ -20,7 +21,7 @@ _C6, _S6 = math.cos(math.radians(6)), math.sin(math.radians(6))
 _C63, _S63 = math.cos(math.radians(63)), math.sin(math.radians(63))
 
 
-@numba.njit(nogil=True, cache=True)
+@compiled
 def differences(first: np.ndarray, second: np.ndarray, out: np.ndarray) -> None:
     """Delta E_00 of each row of two arrays of CIELAB colours, shape (n, 3), into ``out``, shape (n,)."""
     for i in range(len(out)):
@@ -30,7 +31,7 @@ def differences(first: np.ndarray, second: np.ndarray, out: np.ndarray) -> None:
         )  # fmt: skip
 
 
-@numba.njit(nogil=True, cache=True)
+@compiled
 def _difference(l1: float, a1: float, b1: float, l2: float, a2: float, b2: float) -> float:
     stretch = 1.5 - 0.5 * _saturation(
         (math.sqrt(a1 * a1 + b1 * b1) + math.sqrt(a2 * a2 + b2 * b2)) / 2
@@ -49,14 +50,14 @@ def _difference(l1: float, a1: float, b1: float, l2: float, a2: float, b2: float
     return math.sqrt(max(light**2 + chroma**2 + hue**2 + rotation * chroma * hue, 0.0))
 
 
-@numba.njit(nogil=True, cache=True)
+@compiled
 def _saturation(chroma: float) -> float:
     cube = chroma * chroma * chroma
     power = cube * cube * chroma
     return math.sqrt(power / (power + _ROOT_POWER))
 
 
-@numba.njit(nogil=True, cache=True)
+@compiled
 def _mean_hue(
     a1: float, b1: float, c1: float, a2: float, b2: float, c2: float
 ) -> tuple[float, float]:
@@ -70,7 +71,7 @@ def _mean_hue(
     return (x / length, y / length) if length > 0 else (1.0, 0.0)
 
 
-@numba.njit(nogil=True, cache=True)
+@compiled
 def _hue_difference(a1: float, b1: float, a2: float, b2: float, product: float) -> float:
     along = a1 * a2 + b1 * b2
     across = a1 * b2 - b1 * a2
@@ -81,7 +82,7 @@ def _hue_difference(a1: float, b1: float, a2: float, b2: float, product: float) 
     return 2 * math.copysign(size, across)
 
 
-@numba.njit(nogil=True, cache=True)
+@compiled
 def _hue_weight(c: float, s: float) -> float:
     """T of the formula, from the cosine and the sine of the mean hue h: cosines of its multiples without trigonometry."""
     c2, s2 = c * c - s * s, 2 * c * s

@@ -17,6 +17,17 @@ MOST_BYTES = 2e9
 """What the folder holds at most, beside the newest result."""
 
 
+def user_folder() -> Path | None:
+    """Where results are kept for this user; None where the system does not say who that is, as in some containers."""
+    import platformdirs
+
+    try:
+        folder = platformdirs.user_cache_path("halfway")
+    except RuntimeError:  # of newer versions; older ones give a folder called ~
+        return None
+    return folder if folder.is_absolute() else None
+
+
 def cached(
     folder: Path, key: str, compute: Callable[[], dict[str, np.ndarray]]
 ) -> dict[str, np.ndarray]:

@@ -1,18 +1,16 @@
 """BRDFs: what every material can do, the tabular kind, and how two of them differ."""
 
-from . import quadrature
+from . import metrics, quadrature
 from .albedo import directional_albedo
 from .brdf import Brdf, IsotropicModel, require_isotropic
 from .check import ValidityCard, check
 from .fresnel import fresnel
-from .metrics import EPSILON, MAPPINGS, Difference, Metric, difference
+from .metrics import Difference, Metric, difference
 from .quality import Quality, lit_sphere, quality
 from .repair import Repaired, repair
-from .table import TabularBrdf, tabulate
+from .table import TabularBrdf, half_scale, tabulate
 
 __all__ = [
-    "EPSILON",
-    "MAPPINGS",
     "Brdf",
     "Difference",
     "IsotropicModel",
@@ -25,7 +23,9 @@ __all__ = [
     "difference",
     "directional_albedo",
     "fresnel",
+    "half_scale",
     "lit_sphere",
+    "metrics",
     "quadrature",
     "quality",
     "repair",

@@ -10,6 +10,7 @@ database's own reader.
 """
 
 import hashlib
+import math
 from dataclasses import dataclass
 from typing import Literal
 
@@ -112,6 +113,18 @@ def _renormalised(
     counted = np.where(np.isnan(samples), 0.0, weights)
     with np.errstate(invalid="ignore"):
         return (counted * np.nan_to_num(samples)).sum(axis=1) / counted.sum(axis=1)
+
+
+LARGEST_HALF = 60_000.0
+"""A half float reaches 65,504; a value may be rounded up and must stay below."""
+
+
+def half_scale(largest: float) -> float:
+    """The scale at which values up to ``largest`` are kept as half floats, value / scale: 1 for all that fit.
+
+    A power of two, so that dividing by it loses nothing; 11 significant bits are at most .05 % off.
+    """
+    return 2.0 ** max(0, math.ceil(math.log2(largest / LARGEST_HALF))) if largest > 0 else 1.0
 
 
 def tabulate(brdf: Brdf, grid: Grid, *, name: str = "") -> TabularBrdf:

@@ -124,8 +124,8 @@ def _note(message: Warning | str, *_: object, **__: object) -> None:
     say(f"note: {message}")
 
 
-def cache_folder() -> Path:
+def cache_folder() -> Path | None:
     """Where small dear results are kept for this user."""
-    import platformdirs
+    from ..cache import user_folder
 
-    return platformdirs.user_cache_path("halfway")
+    return user_folder()

@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from jaxtyping import Float32, Float64
 
-from ..brdf import MAPPINGS, quadrature
+from ..brdf import metrics, quadrature
 from ..errors import LibraryError
 from ..library import (
     Coding,
@@ -198,7 +198,7 @@ def _compared(library: Library, compact: Library, block: slice) -> _Compared:
         part.ravel()[block][kept] for part in quadrature.comparison_cells(library.grid)
     )
     weights = np.where(grazing, 0.0, solid_angle)
-    relative = MAPPINGS["log-relative"]
+    relative = metrics.MAPPINGS["log-relative"]
     apart = relative(p, cos_i, cos_o) - relative(q, cos_i, cos_o)
     log = np.array([(apart**2 @ weights).sum(), 3 * p.shape[1] * weights.sum()])
     return _Compared(((p - q) ** 2).sum(axis=-1), (centred**2).sum(axis=-1), log)

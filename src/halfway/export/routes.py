@@ -21,7 +21,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..batch import Batch, Checksum
-from ..brdf import TabularBrdf
+from ..brdf import TabularBrdf, half_scale
 from ..errors import OutputError
 from ..files import replacing
 from ..formats import merl_bytes, write_brdf
@@ -126,7 +126,7 @@ def _tables(format: str, recipes: Sequence[Recipe], library: Library) -> _Tables
         case "bsdf":
             return _Tables(_numbered(n, ".bsdf"), BSDF_BYTES, write_brdf, {})
         case "zarr":
-            scale = zarr_tables.scale_for(_largest(recipes, library))
+            scale = half_scale(_largest(recipes, library))
             return _Tables(
                 zarr_tables.chunk_names(n, grid),
                 zarr_tables.chunk_bytes(grid),

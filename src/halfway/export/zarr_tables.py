@@ -6,7 +6,7 @@
 
     f_r = scale x sample    in 1/sr, within 2^-11 of the table; NaN where unmeasured
 
-``scale`` is a power of two, 1 unless a table exceeds what half precision holds (65504). A chunk is a file, and so a store is
+``scale`` is that of `halfway.brdf.half_scale` for the largest sample of all. A chunk is a file, and so a store is
 written like any other batch.
 
 Source: Zarr core specification, version 3 (regular chunk grid, default chunk keys, codecs bytes and gzip).
@@ -14,7 +14,6 @@ Source: Zarr core specification, version 3 (regular chunk grid, default chunk ke
 
 import gzip
 import json
-import math
 from pathlib import Path
 
 import numpy as np
@@ -25,8 +24,6 @@ from ..halfdiff import Grid
 
 STORE = "tables.zarr"
 METADATA = f"{STORE}/zarr.json"
-LARGEST = 60_000.0
-"""A sample may be rounded up, and must not leave half precision."""
 
 
 def chunk_names(n: int, grid: Grid) -> list[str]:
@@ -38,11 +35,6 @@ def chunk_names(n: int, grid: Grid) -> list[str]:
 def chunk_bytes(grid: Grid) -> int:
     """What a chunk takes at most: samples that cannot be compressed."""
     return 6 * grid.size + 4096
-
-
-def scale_for(largest: float) -> float:
-    """The scale of a store whose samples are at most ``largest``."""
-    return 2.0 ** max(0, math.ceil(math.log2(largest / LARGEST))) if largest > 0 else 1.0
 
 
 def metadata(n: int, grid: Grid, scale: float) -> str:

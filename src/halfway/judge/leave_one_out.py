@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from jaxtyping import Float64
 
-from ..brdf import MAPPINGS
+from ..brdf import metrics
 from ..look import appearance, cielab_difference
 from ..space import Space
 from ..tasks import HERE, Work
@@ -55,7 +55,7 @@ def _errors(space: Space, bench: Bench, i: int) -> dict[str, float]:
     samples = bench.samples
     weights = np.stack([np.eye(len(samples.names))[i][None].repeat(3, 0), space.without(i)], axis=1)
     values = samples.mix(weights, space.blend)
-    looks = {metric: samples.features(values, metric) for metric in MAPPINGS}
+    looks = {metric: samples.features(values, metric) for metric in metrics.MAPPINGS}
     looks["log by cell"] = samples.features(values, by="cell")
     seen = appearance(bench.judging.mix(weights, space.blend))
     errors = {name: float(np.linalg.norm(look[0] - look[1])) for name, look in looks.items()}

@@ -22,7 +22,7 @@ import numpy as np
 from jaxtyping import Float
 
 from .._types import Rows
-from ..brdf import EPSILON, quadrature
+from ..brdf import metrics, quadrature
 from ..halfdiff import Grid
 
 Mapping = Literal["log", "linear"]
@@ -50,7 +50,7 @@ class Coding:
         """The rows of a block of samples that components are taken of; NaN where a material is unmeasured."""
         coded = samples
         if self.mapping == "log":
-            coded = np.log(samples * _weights(grid)[columns] + np.float32(EPSILON))
+            coded = np.log(samples * _weights(grid)[columns] + np.float32(metrics.EPSILON))
         return coded.reshape(self.n_bases, -1, samples.shape[-1])
 
     def to_samples(
@@ -59,11 +59,11 @@ class Coding:
         """Samples of coded rows on ``cells``, 1/sr, shape (3, n_materials, n); never negative."""
         samples = coded.reshape(3, len(coded) * coded.shape[1] // 3, -1 if coded.size else 0)
         if self.mapping == "log":
-            samples = (np.exp(samples) - np.float32(EPSILON)) / _weights(grid)[cells]
+            samples = (np.exp(samples) - np.float32(metrics.EPSILON)) / _weights(grid)[cells]
         return np.maximum(samples, 0, dtype=np.float32)
 
 
 @lru_cache(maxsize=2)
 def _weights(grid: Grid) -> Float[np.ndarray, " p"]:
     cells = quadrature.comparison_cells(grid)
-    return np.maximum(cells.cos_i * cells.cos_o, EPSILON).ravel().astype(np.float32)
+    return np.maximum(cells.cos_i * cells.cos_o, metrics.EPSILON).ravel().astype(np.float32)

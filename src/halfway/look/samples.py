@@ -18,7 +18,7 @@ import numpy as np
 from jaxtyping import Float, Float32, Float64, Int
 
 from .._types import Mask
-from ..brdf import MAPPINGS, Metric, quadrature
+from ..brdf import Metric, metrics, quadrature
 from ..errors import LibraryError
 from ..halfdiff import Grid
 from ..library import Library
@@ -111,7 +111,7 @@ class CellSamples:
         cos_i, cos_o = self.cosines.astype(np.float32)
         weights = self.weights if by == "solid angle" else self.cell_weights
         scale = np.sqrt(weights / 3).astype(np.float32)
-        mapped = MAPPINGS[metric](values, cos_i, cos_o) * scale
+        mapped = metrics.MAPPINGS[metric](values, cos_i, cos_o) * scale
         return np.concatenate(list(mapped), axis=-1)
 
 

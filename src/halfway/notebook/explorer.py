@@ -9,10 +9,10 @@ from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
-import platformdirs
 from anywidget import AnyWidget
 from traitlets import Float, Instance, List, Unicode, default, observe, validate
 
+from ..cache import user_folder
 from ..errors import HalfwayError, SpaceError
 from ..library import DEFAULT_LIBRARY, Library, open_library
 from ..recipes import Recipe
@@ -22,7 +22,7 @@ from ..space import PACES, SPACES, LinearSpace, Route
 from ..tasks import Work
 from .messages import Answerer
 
-WITH_CACHE = Work(cache=platformdirs.user_cache_path("halfway"))
+WITH_CACHE = Work(cache=user_folder())
 FAVOURITES = ("cherry-235", "gold-metallic-paint")
 """A pair that shows something, where the library has it."""
 

@@ -4,11 +4,12 @@ Fused: one pass over all rows, summed in float64, at most of the memory's bandwi
 everything twice.
 """
 
-import numba
 import numpy as np
 
+from ..compiled import compiled
 
-@numba.njit(nogil=True, cache=True)
+
+@compiled
 def sum_four(
     out: np.ndarray, a: np.ndarray, b: np.ndarray, c: np.ndarray, d: np.ndarray, w: np.ndarray
 ) -> None:
@@ -18,7 +19,7 @@ def sum_four(
         out[i] = w0 * a[i] + w1 * b[i] + w2 * c[i] + w3 * d[i]
 
 
-@numba.njit(nogil=True, cache=True)
+@compiled
 def sum_eight(
     out: np.ndarray,
     a: np.ndarray,

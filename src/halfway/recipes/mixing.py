@@ -6,9 +6,8 @@ A cell is unmeasured in the mix where it is unmeasured in any ingredient. The we
 negative: a mix of sound materials is sound. The truncated PCA is something else: `Pca.reconstruct`.
 """
 
-from collections import OrderedDict
 from collections.abc import Mapping
-from functools import partial
+from functools import lru_cache, partial
 from threading import Lock
 from typing import Any
 
@@ -28,9 +27,10 @@ class Mixer:
     def __init__(self, library: Library, *, n_rows: int = 24) -> None:
         require_isotropic(library.grid, "a mix", name=library.name)
         self._library = library
-        self._rows: OrderedDict[str, Table] = OrderedDict()
         self._n_rows = n_rows
-        self._lock = Lock()
+        # Not of a method: a mixer that is done with shall go at once, with its rows.
+        self._row = lru_cache(n_rows)(partial(_row, library))
+        self._lock = Lock()  # threads that want the same row compute it once
 
     def __reduce__(self) -> tuple[Any, ...]:
         """A mixer travels without its rows."""
@@ -45,7 +45,8 @@ class Mixer:
             When the recipe names a material that the library does not have.
         """
         grid = self._library.grid
-        rows = self._rows_of(recipe)
+        with self._lock:
+            rows = [self._row(name) for name in recipe.names]
         values = np.empty((3, grid.size), np.float32)
         match recipe.blend:
             case Blend.LINEAR:
@@ -53,22 +54,6 @@ class Mixer:
                     used = np.flatnonzero(weights)
                     _weighted_sum(out, [rows[i][channel] for i in used], weights[used])
         return TabularBrdf(values.reshape(3, *grid.shape), grid, name=_title(recipe))
-
-    def _rows_of(self, recipe: Recipe) -> list[Table]:
-        with self._lock:
-            rows = [self._row(name) for name in recipe.names]
-            while len(self._rows) > max(self._n_rows, len(rows)):
-                self._rows.popitem(last=False)
-        return rows
-
-    def _row(self, name: str) -> Table:
-        if name not in self._rows:
-            try:
-                self._rows[name] = self._library.row(self._library.index(name))
-            except LibraryError as error:
-                raise RecipeError(str(error)) from None
-        self._rows.move_to_end(name)
-        return self._rows[name]
 
 
 def mix(library: Library | str, recipe: Recipe | Mapping[str, Any] | str) -> TabularBrdf:
@@ -105,6 +90,13 @@ def _to_recipe(library: Library, recipe: Recipe | Mapping[str, Any] | str) -> Re
             return Recipe.from_text(library, recipe)
         case _:
             return Recipe.of(library, recipe)
+
+
+def _row(library: Library, name: str) -> Table:
+    try:
+        return library.row(library.index(name))
+    except LibraryError as error:
+        raise RecipeError(str(error)) from None
 
 
 def _title(recipe: Recipe) -> str:

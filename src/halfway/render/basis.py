@@ -8,8 +8,8 @@ so a route of any length costs one render for each measured material that it tou
 so no frame flickers against the next.
 """
 
-from collections import OrderedDict
 from collections.abc import Callable, Iterable
+from functools import lru_cache
 from hashlib import sha256
 
 import numpy as np
@@ -63,13 +63,13 @@ class BasisPictures:
         self._table = table
         self._work = work
         self._scene = renderer.fingerprint()
-        self._pictures: OrderedDict[str, np.ndarray] = OrderedDict()
-        self._room = max(1, MEMORY // (12 * renderer.size[0] * renderer.size[1]))
+        room = max(1, MEMORY // (12 * renderer.size[0] * renderer.size[1]))
+        self._basis = lru_cache(room)(self._render)
 
     def render(self, names: Iterable[str]) -> None:
         """Have the pictures of these materials ready: rendered, or read from the cache."""
-        missing = [name for name in dict.fromkeys(names) if name not in self._pictures]
-        for name in self._work.track(missing, "Basis images", len(missing)):
+        different = list(dict.fromkeys(names))
+        for name in self._work.track(different, "Basis images", len(different)):
             self._basis(name)
 
     def picture(self, recipe: Recipe) -> np.ndarray:
@@ -93,16 +93,8 @@ class BasisPictures:
                     mixed[channel] += np.float32(recipe.weights[channel, i]) * planes[channel]
         return np.ascontiguousarray(np.moveaxis(mixed, 0, -1))
 
-    def _basis(self, name: str) -> np.ndarray:
-        """The picture of one material, its channels first."""
-        if name not in self._pictures:
-            self._pictures[name] = self._render(name)
-            if len(self._pictures) > self._room:
-                self._pictures.popitem(last=False)
-        self._pictures.move_to_end(name)
-        return self._pictures[name]
-
     def _render(self, name: str) -> np.ndarray:
+        """The picture of one material, its channels first."""
         table = self._table(name)
         material = sha256(f"{table.grid}".encode() + table.fingerprint()).hexdigest()[:32]
         arrays = self._work.cached(

@@ -1,22 +1,18 @@
 """Numbers for the graphics card: half floats, and the scale that makes them fit.
 
-    value = scale x half float         scale a power of two, so dividing by it loses nothing
+    value = scale x half float         see `halfway.brdf.half_scale`
 
-A half float reaches 65,504 with 11 significant bits: at most .05 % off. A table goes over as RGBA in the order of a MERL
+A table goes over as RGBA in the order of a MERL
 file, which is that of a 3-D texture (width phi_d, height theta_d, depth theta_h). Alpha is 1 where the sample is
 measured and 0 elsewhere, where RGB is 0 too: the hardware's trilinear filter then gives the sum of w v and of w, and
 their quotient is the interpolation renormalised over the measured corners.
 """
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
 
-from ..brdf import TabularBrdf
-
-LARGEST = 60_000.0
-"""Values above it are scaled."""
+from ..brdf import TabularBrdf, half_scale
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,7 +27,7 @@ class Block:
     @classmethod
     def of(cls, values: np.ndarray, alpha: np.ndarray) -> "Block":
         """RGB ``values`` (..., 3), finite, and ``alpha`` (...) in [0, 1]."""
-        scale = tuple(_power_of_two(float(values[..., c].max())) for c in range(3))
+        scale = tuple(half_scale(float(values[..., c].max())) for c in range(3))
         block = np.empty((*alpha.shape, 4), "<f2")
         block[..., :3] = values / np.array(scale, np.float32)
         block[..., 3] = alpha
@@ -51,7 +47,3 @@ class Block:
             "Halfway-Shape": ",".join(map(str, self.shape)),
             "Halfway-Scale": ",".join(f"{scale:g}" for scale in self.scale),
         }
-
-
-def _power_of_two(largest: float) -> float:
-    return 2.0 ** max(0, math.ceil(math.log2(largest / LARGEST))) if largest > LARGEST else 1.0

@@ -4,9 +4,9 @@ No HTTP here. What is dear is computed once: the principal components and the th
 space when it is first asked for. Tables are kept in bounded number.
 """
 
-from collections import OrderedDict
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import lru_cache, partial
 from importlib.metadata import version
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -60,9 +60,8 @@ class Explorer:
         first = next(iter(SPACES))
         self._spaces = {first: make_space(first, library, work=work)}
         self._making = Lock()
-        self._tables: OrderedDict[str, Block] = OrderedDict()
-        self._mixer = Mixer(library, n_rows=8)
-        self._lock = Lock()
+        self._block = lru_cache(N_TABLES)(partial(_block_of, library))
+        self._mixer = Mixer(library, n_rows=12)
 
     def warm(self) -> None:
         """Make what the first route needs: compiled metrics and solvers take a second to load."""
@@ -126,16 +125,7 @@ class Explorer:
 
     def table(self, name: str) -> Block:
         """The table of one material."""
-        with self._lock:
-            if name in self._tables:
-                self._tables.move_to_end(name)
-                return self._tables[name]
-        block = Block.of_table(self.library.brdf(name))
-        with self._lock:
-            self._tables[name] = block
-            while len(self._tables) > N_TABLES:
-                self._tables.popitem(last=False)
-        return block
+        return self._block(name)
 
     def thumbnails(self) -> Block:
         """Pictures of all materials on a lit sphere, (N, size, size, RGBA), linear, black beside the sphere."""
@@ -206,6 +196,10 @@ def to_view(route: Route) -> RouteView:
         names=[route.names[i] for i in used],
         weights=WeightTable(r=r, g=g, b=b),
     )
+
+
+def _block_of(library: Library, name: str) -> Block:
+    return Block.of_table(library.brdf(name))
 
 
 def _crossings(route: Route) -> list[float]:
