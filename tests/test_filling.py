@@ -7,10 +7,10 @@ from halfway.errors import OutputError
 
 
 def fill(folder, texts, **options):
-    with filling(folder, "report", **options):
+    with filling(folder, "report", **options) as scratch:
         for name, text in texts.items():
-            (folder / name).parent.mkdir(parents=True, exist_ok=True)
-            (folder / name).write_text(text)
+            (scratch / name).parent.mkdir(parents=True, exist_ok=True)
+            (scratch / name).write_text(text)
 
 
 def contents(folder):
@@ -37,13 +37,16 @@ def test_what_is_somebody_elses_is_never_written_over_unasked(tmp_path, spoil):
     if spoil != "foreign":
         fill(tmp_path, {"a.txt": "old"})
     if spoil == "other command":
-        with filling(tmp_path / "in", "export"):
-            (tmp_path / "in" / "b.txt").write_text("theirs")
+        with filling(tmp_path / "in", "export") as scratch:
+            (scratch / "b.txt").write_text("theirs")
     else:
         (tmp_path / "a.txt").write_text("mine")
     folder = tmp_path / "in" if spoil == "other command" else tmp_path
     before = contents(folder)
-    with pytest.raises(OutputError, match=r"holds 1 files that `halfway report` did not write"):
+    with pytest.raises(
+        OutputError,
+        match=r"holds files that `halfway report` did not write, or that were changed since, .\.txt",
+    ):
         fill(folder, {"a.txt": "new"})
     assert contents(folder) == before
 
@@ -60,23 +63,25 @@ def test_force_writes_beside_what_is_there_and_over_what_has_the_same_name(tmp_p
     assert Manifest.read(tmp_path).names == {"a.txt"}
 
 
-def test_a_run_that_was_stopped_is_gone_on_from(tmp_path):
-    def stopped():
-        with filling(tmp_path, "report"):
-            (tmp_path / "a.txt").write_text("half")
+@pytest.mark.parametrize("earlier", [{}, {"a.txt": "old"}])
+def test_a_run_that_fails_changes_nothing(tmp_path, earlier):
+    def fails():
+        with filling(tmp_path / "out", "report") as scratch:
+            (scratch / "a.txt").write_text("half")
             raise KeyboardInterrupt
 
+    if earlier:
+        fill(tmp_path / "out", earlier)
+    before = contents(tmp_path)
     with pytest.raises(KeyboardInterrupt):
-        stopped()
-    fill(tmp_path, {"a.txt": "whole"})
-    assert verify(tmp_path).ok
-
-
-def test_a_run_that_fails_before_it_writes_leaves_no_folder(tmp_path):
-    def fails():
-        with filling(tmp_path / "out", "report"):
-            raise OutputError("no")
-
-    with pytest.raises(OutputError):
         fails()
-    assert not (tmp_path / "out").exists()
+    assert contents(tmp_path) == before
+    assert (tmp_path / "out").exists() == bool(earlier)
+
+
+def test_a_run_that_was_stopped_while_files_were_moved_is_gone_on_from(tmp_path):
+    Manifest({"by": "report"}, frozenset({"a.txt", "b.txt"})).write_journal(tmp_path)
+    (tmp_path / "a.txt").write_text("moved")
+    fill(tmp_path, {"b.txt": "whole"})
+    assert contents(tmp_path).keys() == {"b.txt", "manifest.json"}
+    assert verify(tmp_path).ok

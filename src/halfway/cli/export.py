@@ -34,11 +34,14 @@ def export(
     halfway export builtin:merl-abc:teflon --for pbrt-v4 -o teflon
     halfway export recipes.json --for pbrt-v2 -o frames
     """
+    from halfway.batch import filling
     from halfway.export import write_scenes
     from halfway.recipes import open_materials
 
     materials = open_materials(words, library=library)
-    written = write_scenes(output, materials, renderer, force=force, work=work())
-    for scene in written:
-        say(f"{scene.folder}: {', '.join(path.name for path in scene.files)}")
-    say(f"Next: cd {written[0].folder} && {written[0].command}")
+    with filling(output, "export", force=force) as folder:
+        written = write_scenes(folder, materials, renderer, work=work())
+    own = [output / scene.folder.relative_to(folder) for scene in written]
+    for scene, there in zip(written, own, strict=True):
+        say(f"{there}: {', '.join(path.name for path in scene.files)}")
+    say(f"Next: cd {own[0]} && {written[0].command}")

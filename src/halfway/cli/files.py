@@ -71,6 +71,7 @@ def convert(
     halfway convert gold.binary gold.mtlx                               an analytic fit: see halfway fit
     halfway convert builtin:merl-abc tables --grid 30x30x60
     """
+    from halfway.batch import filling
     from halfway.export import write_material, write_materials
     from halfway.recipes import open_materials
 
@@ -81,9 +82,9 @@ def convert(
         raise ArgumentError("convert takes IN and OUT: expected one file or folder to write.")
     materials, cells = open_materials([source], library=library), parse_grid(grid)
     if not out.suffix:
-        write_materials(
-            out, materials, f".{format}", grid=cells, spectral=spectral, force=force, work=work()
-        )
+        with filling(out, "convert", force=force) as folder:
+            suffix = f".{format}"
+            write_materials(folder, materials, suffix, grid=cells, spectral=spectral, work=work())
         say(f"{out}: {len(materials)} {format} files")
         return
     if len(materials) > 1:

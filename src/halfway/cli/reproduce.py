@@ -38,6 +38,6 @@ def reproduce(
 
     library = open_library(lib)
     say(f"Library {library.name}: {library.origin.description}.")
-    with filling(output, "reproduce", force=force):
-        reproduced(output, library, size=size, spp=spp, env=env, mesh=mesh, work=work())
+    with filling(output, "reproduce", force=force) as folder:
+        reproduced(folder, library, size=size, spp=spp, env=env, mesh=mesh, work=work())
     say(f"{output}: page.html (and page.md), its pictures, and paper.json with every number")

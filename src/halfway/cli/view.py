@@ -9,7 +9,7 @@ import typer
 
 from ..locations import DEFAULT_LIBRARY
 from .console import say, work
-from .options import AsJson, Lib
+from .options import AsJson, Force, Lib
 
 
 def view(
@@ -27,6 +27,7 @@ def view(
         int | None,
         typer.Option("-n", help="Of --export: as many that look most different. [default: 8]"),
     ] = None,
+    force: Force = False,
 ) -> None:
     """Explore a library in the browser: see the space, go anywhere, watch the material change.
 
@@ -59,7 +60,7 @@ def view(
     from halfway.server import export_some
 
     names = [name.strip() for name in materials.split(",") if name.strip()]
-    written, shown = export_some(library, export, names, n=n, work=work())
+    written, shown = export_some(library, export, names, n=n, force=force, work=work())
     say(f"{export}: {', '.join(shown)}")
     say(
         f"{written.n_files} files, {written.n_bytes / 1e6:.1f} MB. Any web server shows it: "

@@ -8,7 +8,6 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-from ..batch import filling
 from ..errors import OutputError
 from ..fit import fit
 from ..formats import write_brdf, write_rgl
@@ -60,21 +59,19 @@ def write_materials(
     *,
     grid: Grid | None = None,
     spectral: bool = False,
-    force: bool = False,
     work: Work = HERE,
 ) -> list[Path]:
-    """Write a file of each material into a folder, called as it is, and a manifest of all; see `write_material`.
+    """Write a file of each material into a folder, called as it is; see `write_material`.
 
     Raises
     ------
     OutputError
-        As `write_material`; and when the folder holds what `halfway convert` did not write, without ``force``.
+        As `write_material`.
     """
     if not materials:
         raise OutputError(f"{folder} would hold no materials: expected one or more.")
     paths = [folder / name for name in file_names(materials, suffix)]
-    with filling(folder, "convert", force=force):
-        pairs = list(zip(paths, materials, strict=True))
-        for path, material in work.track(pairs, "Converting", len(pairs)):
-            write_material(path, material, grid=grid, spectral=spectral)
+    pairs = list(zip(paths, materials, strict=True))
+    for path, material in work.track(pairs, "Converting", len(pairs)):
+        write_material(path, material, grid=grid, spectral=spectral)
     return paths

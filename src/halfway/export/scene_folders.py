@@ -4,7 +4,6 @@ import json
 from collections.abc import Sequence
 from pathlib import Path
 
-from ..batch import filling
 from ..recipes import NamedBrdf, file_names
 from ..tasks import HERE, Work
 from .scenes import SceneFolder, write_scene
@@ -15,25 +14,22 @@ def write_scenes(
     materials: Sequence[NamedBrdf],
     renderer: str,
     *,
-    force: bool = False,
     work: Work = HERE,
 ) -> list[SceneFolder]:
-    """Write each material with a scene for ``renderer``, and a manifest of all; see `write_scene`.
+    """Write each material with a scene for ``renderer``; see `write_scene`.
 
     Raises
     ------
     OutputError
-        As `write_scene`; and when the folder holds what `halfway export` did not write, without ``force``.
+        As `write_scene`.
     """
     one = len(materials) == 1
     folders = [folder] if one else [folder / name for name in file_names(materials, "")]
-    with filling(folder, "export", force=force):
-        return [
-            write_scene(own, brdf.load(), renderer, name=brdf.label, origin=_origin(brdf))
-            for brdf, own in zip(
-                work.track(materials, "Exporting", len(materials)), folders, strict=True
-            )
-        ]
+    pairs = list(zip(materials, folders, strict=True))
+    return [
+        write_scene(own, brdf.load(), renderer, name=brdf.label, origin=_origin(brdf))
+        for brdf, own in work.track(pairs, "Exporting", len(pairs))
+    ]
 
 
 def _origin(material: NamedBrdf) -> str:

@@ -3,11 +3,12 @@
 from collections.abc import Sequence
 from pathlib import Path
 
+from ..batch import require_own
 from ..library import Library, Subset
 from ..look import Looks, most_different
 from ..tasks import HERE, Work
 from .page import Page
-from .static import Exported, export, require_own
+from .static import Exported, export
 
 N_EXPORTED = 8
 """Materials that a folder carries where nobody says how many."""
@@ -19,6 +20,7 @@ def export_some(
     names: Sequence[str] = (),
     *,
     n: int | None = None,
+    force: bool = False,
     work: Work = HERE,
 ) -> tuple[Exported, Sequence[str]]:
     """Write the explorer of the materials called ``names``, or else of ``n`` that look most different; gives their names.
@@ -28,8 +30,9 @@ def export_some(
     OutputError
         As `export`.
     """
-    require_own(folder)  # before anything is computed
+    if not force:
+        require_own(folder, "view")  # before anything is computed
     if not names:
         looks = Looks.fit(library, work=work)
         names = most_different(looks, min(N_EXPORTED, len(library)) if n is None else n)
-    return export(Subset(library, names), folder, Page.load(), work=work), names
+    return export(Subset(library, names), folder, Page.load(), force=force, work=work), names
