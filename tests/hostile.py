@@ -140,10 +140,10 @@ def _library_with(name: str, path: Path) -> Callable[[bytes, Path], None]:
 
 def _materials(name: str) -> Callable[[bytes, Path], None]:
     def read(content: bytes, folder: Path) -> None:
-        from halfway.cli.materials import to_materials
+        from halfway.recipes import open_materials
 
         (folder / name).write_bytes(content)
-        for material in to_materials([str(folder / name)]):
+        for material in open_materials([str(folder / name)]):
             _use(material.load())
 
     return read

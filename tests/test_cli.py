@@ -251,6 +251,7 @@ def test_report_prints_table_1_and_writes_figures(run, lib, tmp_path):
         "eigenvalues.svg",
         "triangulation.png",
         "triangulation.svg",
+        "manifest.json",
     }
     document = json.loads((tmp_path / "report" / "report.json").read_text())
     assert [row["n_components"] for row in document["table_1"]] == [3, 5]

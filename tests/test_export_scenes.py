@@ -189,9 +189,9 @@ def test_several_materials_get_a_folder_each(tmp_path, halfway, table):
     files = [str(tmp_path / f"{name}.binary") for name in ("a", "b")]
     done = halfway("export", *files, "--for", "pbrt-v4", "-o", str(tmp_path / "out"))
     assert done.exit_code == 0, done.output
-    assert sorted(p.name for p in (tmp_path / "out").iterdir()) == ["a", "b"]
+    assert sorted(p.name for p in (tmp_path / "out").iterdir()) == ["a", "b", "manifest.json"]
     done = halfway("export", files[0], files[0], "--for", "pbrt-v4", "-o", str(tmp_path / "twice"))
-    assert sorted(p.name for p in (tmp_path / "twice").iterdir()) == ["000-a", "001-a"]
+    assert sorted(p.name for p in (tmp_path / "twice").iterdir()) == ["a", "a-2", "manifest.json"]
 
 
 @pytest.mark.parametrize(

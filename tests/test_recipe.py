@@ -20,6 +20,19 @@ def test_from_text():
     assert_allclose(recipe.weights, [[0.7, 0.3]] * 3)
 
 
+@pytest.mark.parametrize("name", ["gold=paint", "red, matte", "scan 12:30", "a, b=c"])
+def test_a_name_may_hold_commas_and_signs_of_equality(name):
+    recipe = Recipe.from_text("lib", f"{name}=0.5, chalk = .5")
+    assert recipe.names == (name, "chalk")
+    assert_allclose(recipe.weights, 0.5)
+
+
+def test_weights_that_sum_to_100_are_parts_of_a_hundred_and_said_to_be():
+    with pytest.warns(UserWarning, match="parts of a hundred"):
+        recipe = Recipe.from_text("lib", "gold=70, chalk=30")
+    assert_allclose(recipe.weights, [[0.7, 0.3]] * 3)
+
+
 def test_per_channel():
     weights = {"r": {"a": 1}, "g": {"a": 0.5, "b": 0.5}, "b": {"b": 1}}
     recipe = Recipe.of("lib", weights)
@@ -56,7 +69,8 @@ def test_materials_without_weight_are_left_out():
         ("gold=much", "the weight of gold, 'much', is no number"),
         ("gold", "'gold' has no weight: expected NAME=WEIGHT"),
         ("gold=0.5, gold=0.5", "gold is given twice"),
-        ("", "sum to 0"),
+        ("", "has no weight"),
+        ("gold=0.5, teflon", "'teflon' has no weight"),
     ],
 )
 def test_what_is_no_recipe_says_why(text, message):

@@ -57,34 +57,6 @@ def replacing(path: Location) -> Generator[Path]:
 
 
 @contextmanager
-def replacing_folder(path: Path) -> Generator[Path]:
-    """A temporary folder beside ``path`` that takes its place when the block ends well, and is removed when not.
-
-    Raises
-    ------
-    OutputError
-        When the folder cannot be written; what stood at ``path`` stays.
-    """
-    token = secrets.token_hex(_TOKEN_BYTES)
-    temporary, old = (path.with_name(f".{path.name}.{token}.{role}") for role in ("new", "old"))
-    with explaining(path):
-        try:
-            temporary.mkdir(parents=True)
-            yield temporary
-            if path.exists():
-                path.rename(old)
-            try:
-                temporary.rename(path)
-            except OSError:
-                if old.exists():
-                    old.rename(path)
-                raise
-        finally:
-            for folder in (temporary, old):
-                shutil.rmtree(folder, ignore_errors=True)
-
-
-@contextmanager
 def explaining(path: Location) -> Generator[None]:
     """Turn what goes wrong while ``path`` is written into one line that says what to do.
 

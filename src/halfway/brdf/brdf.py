@@ -32,6 +32,11 @@ class Brdf(ABC):
     def fingerprint(self) -> bytes:
         """Bytes that change when any value of the BRDF does: the material's part of a library's checksum."""
 
+    @property
+    def about(self) -> str:
+        """What it is, in a few words for people."""
+        return f"a formula ({type(self).__name__})"
+
     def sample_rows(self, grid: Grid, rows: Part) -> Table:
         """Samples at the cell centres of a part of the grid; NaN off the grid's mask.
 

@@ -49,8 +49,10 @@ def difference(f: TabularBrdf, g: TabularBrdf, metric: Metric = "log") -> Differ
     Raises
     ------
     FormatError
-        When the tables are on different grids.
+        When the tables are on different grids, or there is no such metric.
     """
+    if metric not in (known := [*MAPPINGS, "relative"]):
+        raise FormatError(f"there is no metric {metric!r}: expected one of {', '.join(known)}.")
     if f.grid != g.grid:
         raise FormatError(
             f"{f.name!r} is on a {f.grid} grid and {g.name!r} on {g.grid}: only tables on one grid can be compared. "

@@ -70,6 +70,10 @@ class TabularBrdf(Brdf):
     def is_isotropic(self) -> bool:
         return self.grid.is_isotropic
 
+    @property
+    def about(self) -> str:
+        return f"a table of {self.grid} cells"
+
     def eval(
         self, wi: Directions, wo: Directions, *, interpolation: Interpolation = "trilinear"
     ) -> Values:
@@ -77,9 +81,14 @@ class TabularBrdf(Brdf):
 
         ``floor`` is the lookup of the database's own reader and of pbrt-v2, for comparison.
         """
+        lookups = {"trilinear": self.grid.multilinear, "floor": self.grid.floor}
+        if interpolation not in lookups:
+            raise FormatError(
+                f"there is no interpolation {interpolation!r}: expected {' or '.join(lookups)}."
+            )
+        lookup = lookups[interpolation]
         wi, wo = np.broadcast_arrays(wi, wo)
         lit = (wi[..., 2] > 0) & (wo[..., 2] > 0)
-        lookup = self.grid.multilinear if interpolation == "trilinear" else self.grid.floor
         above_i, above_o = wi[lit], wo[lit]
         found = np.empty((len(above_i), 3))
         for start in range(0, len(found), _CHUNK):

@@ -32,7 +32,6 @@ app = typer.Typer(
     epilog="LIB is a library folder, a compact library, an archive of neural fits, builtin:synthetic-N, or the default, "
     f"{DEFAULT_LIBRARY}. --debug shows the traceback of an error.",
     no_args_is_help=True,
-    add_completion=False,
     pretty_exceptions_enable=False,
     rich_markup_mode=None,
 )
@@ -52,6 +51,7 @@ COMMANDS = (
     fit.fit,
     files.convert,
     files.info,
+    files.diff,
     files.fetch,
     view.doctor,
 )

@@ -1,20 +1,14 @@
 """What a person writes on the command line, as the package's values."""
 
-import json
 import math
-from collections.abc import Sequence
-from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..errors import HalfwayError
-from ..locations import DEFAULT_LIBRARY, Location, to_location
 
 if TYPE_CHECKING:
     from ..halfdiff import Grid
-    from ..library import Library
-    from ..recipes import Recipe
 
 LONGEST_ROUTE = 100_000
 """Materials; their recipes take 1.5 GB of memory while they are written."""
@@ -22,22 +16,6 @@ LONGEST_ROUTE = 100_000
 
 class ArgumentError(HalfwayError):
     """An argument that says nothing the command understands."""
-
-
-def split_library(words: Sequence[str]) -> tuple[str, list[str]]:
-    """The library that the first word names, or the default; and the other words."""
-    first, *rest = words
-    return (first, rest) if is_library(first) else (DEFAULT_LIBRARY, list(words))
-
-
-def is_library(word: str) -> bool:
-    """Whether a word names a library rather than a material."""
-    path = to_location(word)
-    return (
-        word.startswith("builtin:")
-        or path.suffix in (".brdflib", ".brdfc", ".zip")
-        or (path / "library.json").exists()
-    )
 
 
 def parse_t(text: str) -> list[float]:
@@ -71,10 +49,12 @@ def require_length(n: float) -> None:
         )
 
 
-def parse_grid(text: str) -> "Grid":
-    """The MERL-like grid written as ``30x30x60``."""
+def parse_grid(text: str) -> "Grid | None":
+    """The MERL-like grid written as ``30x30x60``; None for no text."""
     from ..halfdiff import Grid
 
+    if not text:
+        return None
     sizes = text.lower().split("x")
     if len(sizes) != 3 or not all(size.isdecimal() and 0 < int(size) <= 1000 for size in sizes):
         raise ArgumentError(
@@ -87,68 +67,19 @@ def parse_grid(text: str) -> "Grid":
 def parse_point(text: str) -> np.ndarray:
     """The coordinates written as ``1.5,-2e3,0.1``."""
     try:
-        return np.array([float(number) for number in text.split(",")])
+        point = np.array([float(number) for number in text.split(",")])
     except ValueError:
+        point = np.array([np.nan])
+    if not np.isfinite(point).all():
         raise ArgumentError(
-            f"--point {text!r} is no list of numbers: expected such as 1.5,-2e3,0.1."
-        ) from None
-
-
-def read_json(path: Location) -> Any:
-    """The JSON document in a file."""
-    try:
-        return json.loads(path.read_text())
-    except ValueError as error:
-        raise ArgumentError(f"{path} is no JSON: {error}.") from None
-
-
-def to_recipe(words: Sequence[str]) -> tuple["Library", "Recipe"]:
-    """The recipe that ``[LIB] WHAT`` stands for, and its library.
-
-    WHAT is weights ("gold-paint=0.7, teflon=0.3"), a recipe's JSON file, one of a route's (``recipes.json:25``), or the
-    name of a material.
-    """
-    from ..library import open_library
-    from ..recipes import Recipe
-
-    where, rest = split_library(words) if words else (DEFAULT_LIBRARY, [])
-    if len(rest) != 1:
-        raise ArgumentError(
-            f'{len(rest)} recipes are given where one is expected: quote it, such as "gold-paint=0.7, teflon=0.3".'
+            f"--point {text!r} is no list of finite numbers: expected such as 1.5,-2e3,0.1."
         )
-    (what,) = rest
-    document = _recipe_document(what)
-    if document is not None:
-        named = address(document) if len(words) == 1 else None
-        library = open_library(named or where)
-        return library, Recipe.from_json(document, library=library.name)
-    library = open_library(where)
-    text = what if "=" in what else f"{what}=1"
-    recipe = Recipe.from_text(library.name, text)
-    for name in recipe.names:
-        library.index(name)
-    return library, recipe
+    return point
 
 
-def address(document: dict[str, Any]) -> str | None:
-    """Where the library of a route's or a recipe's document is."""
-    return document.get("library_address") or document.get("library")
-
-
-def _recipe_document(what: str) -> dict[str, Any] | None:
-    """The JSON that ``FILE.json`` or ``FILE.json:INDEX`` stands for; None where it is no file."""
-    file, _, index = what.partition(".json:")
-    path = Path(f"{file}.json") if index else Path(what)
-    if path.suffix != ".json":
-        return None
-    document = read_json(path)
-    if not isinstance(document, dict):
-        raise ArgumentError(f"{path} is no recipe: expected a JSON object with weights.")
-    recipes = document.get("recipes")
-    if recipes is None:
-        return document
-    if not index.isdecimal() or int(index) >= len(recipes):
-        raise ArgumentError(
-            f"{path} holds {len(recipes)} recipes: name one, {path}:0 to {path}:{len(recipes) - 1}."
-        )
-    return {"library": address(document), **recipes[int(index)]}
+def parse_size(text: str) -> tuple[int, int]:
+    """The pixels written as ``384`` or ``640x480``."""
+    sides = text.split("x")
+    if not all(side.isdecimal() for side in sides) or len(sides) > 2:
+        raise ArgumentError(f"--size {text!r} is no size: expected pixels, such as 384 or 640x480.")
+    return int(sides[0]), int(sides[-1])

@@ -6,29 +6,32 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from .console import say, work
+from ..errors import HalfwayError
+from .console import say, show, work
+from .options import AsJson, Force, Library, What
+from .outputs import writing
 
 if TYPE_CHECKING:
     from ..brdf import ValidityCard
-    from .materials import Material
+    from ..recipes import NamedBrdf
+
+BROKEN, UNREADABLE = 1, 3
+"""Exit codes; 2 is that of a command that cannot be understood."""
 
 
 def check(
-    words: Annotated[
-        list[str],
-        typer.Argument(
-            metavar="FILE...", help="Files, LIB:NAME, recipes, routes, whole libraries."
-        ),
-    ],
-    as_json: Annotated[bool, typer.Option("--json", help="For programs.")] = False,
+    words: What,
+    as_json: AsJson = False,
     repair: Annotated[
         bool, typer.Option("--repair", help="Write the nearest sound table to -o.")
     ] = False,
     output: Annotated[
         Path | None, typer.Option("--output", "-o", metavar="FILE", help="With --repair.")
     ] = None,
+    library: Library = "",
+    force: Force = False,
 ) -> None:
-    """Print the validity card of BRDFs; exit 1 when a law is broken.
+    """Print the validity card of BRDFs; exit 1 when a law is broken, 3 when a file cannot be read.
 
     What is no table (neural, RGL) is checked as the table that a library takes of it.
 
@@ -37,29 +40,37 @@ def check(
     halfway check builtin:merl-abc
     halfway check damaged.binary --repair -o sound.binary
     """
-    from .materials import to_materials
+    from halfway.recipes import open_materials
 
-    materials = to_materials(words)
+    materials = open_materials(words, library=library)
     if repair:
-        _repair(materials, output)
+        _repair(materials, output, force)
         return
     names = words if len(words) == len(materials) else [material.label for material in materials]
-    checked = work().run(_card, materials, label="Checking")
-    cards = list(zip(names, checked, strict=True))
-    print(_as_json(cards) if as_json else _as_lines(cards))
-    n_broken = sum(not card.ok for _, card in cards)
-    if n_broken:
-        say(f"{n_broken} of {len(cards)} break a law")
-        raise typer.Exit(1)
+    found = work().run(_card, materials, label="Checking")
+    cards = list(zip(names, found, strict=True))
+    if as_json:
+        print(json.dumps([_as_json(*card) for card in cards], indent=1))
+    else:
+        show("\n".join(_as_line(*card) for card in cards))
+    n_unread = sum(isinstance(card, HalfwayError) for _, card in cards)
+    n_broken = sum(not isinstance(card, HalfwayError) and not card.ok for _, card in cards)
+    if n_broken or n_unread:
+        unread = f", {n_unread} cannot be read" if n_unread else ""
+        say(f"{n_broken} of {len(cards)} break a law{unread}")
+        raise typer.Exit(BROKEN if n_broken else UNREADABLE)
 
 
-def _card(material: "Material") -> "ValidityCard":
+def _card(material: "NamedBrdf") -> "ValidityCard | HalfwayError":
     from halfway.brdf import check as card_of
 
-    return card_of(material.table())
+    try:
+        return card_of(material.table())
+    except HalfwayError as error:
+        return error
 
 
-def _repair(materials: list["Material"], output: Path | None) -> None:
+def _repair(materials: "list[NamedBrdf]", output: Path | None, force: bool) -> None:
     """Write the nearest sound table, and say what was changed."""
     from halfway.brdf import repair as repaired
     from halfway.formats import write_brdf
@@ -68,19 +79,19 @@ def _repair(materials: list["Material"], output: Path | None) -> None:
 
     if output is None or len(materials) != 1:
         raise ArgumentError("--repair takes one FILE and the file to write, with -o.")
-    sound = repaired(materials[0].table())
-    write_brdf(output, sound.table)
+    with writing(output, force=force):
+        sound = repaired(materials[0].table())
+        write_brdf(output, sound.table)
     for change in sound.changes or ("Nothing was wrong.",):
         say(change)
 
 
-def _as_json(cards: "list[tuple[str, ValidityCard]]") -> str:
-    return json.dumps(
-        [{"format": 1, "file": file, **card.as_json()} for file, card in cards], indent=1
-    )
+def _as_json(file: str, card: "ValidityCard | HalfwayError") -> dict[str, object]:
+    facts = {"error": str(card)} if isinstance(card, HalfwayError) else card.as_json()
+    return {"format": 1, "file": file, **facts}
 
 
-def _as_lines(cards: "list[tuple[str, ValidityCard]]") -> str:
-    return "\n".join(
-        f"{'sound ' if card.ok else 'BROKEN'}  {file}: {card.summary}" for file, card in cards
-    )
+def _as_line(file: str, card: "ValidityCard | HalfwayError") -> str:
+    if isinstance(card, HalfwayError):
+        return f"UNREAD  {file}: {card}"
+    return f"{'sound ' if card.ok else 'BROKEN'}  {file}: {card.summary}"

@@ -7,7 +7,8 @@ import typer
 
 from ..locations import to_location
 from .console import say, working
-from .options import Scheduler
+from .options import Force, Scheduler
+from .outputs import writing
 
 
 class MappingName(StrEnum):
@@ -45,6 +46,7 @@ def compact(
         bool, typer.Option(help="Whether the three channels share their components.")
     ] = True,
     scheduler: Scheduler = "",
+    force: Force = False,
 ) -> None:
     """Keep a library as its mean, components and scores, in one file that opens like a library.
 
@@ -59,13 +61,17 @@ def compact(
 
     library = open_library(lib)
     coding = Coding(mapping.value, shared, precision.value)
-    with working(scheduler) as work:
-        made = compact_library(
+    with writing(to_location(output), force=force), working(scheduler) as work:
+        compacted = compact_library(
             library,
             to_location(output),
             n_components=components,
             coding=coding,
             work=work,
         )
-    say("\n".join([f"{output}: {len(made)} materials on {made.grid}", *made.storage()]))
+    say(
+        "\n".join(
+            [f"{output}: {len(compacted)} materials on {compacted.grid}", *compacted.storage()]
+        )
+    )
     say(f"Next: halfway route {output} A B")

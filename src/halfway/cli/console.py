@@ -1,10 +1,11 @@
 """How the command line talks: data to stdout, talk and progress to stderr, a mistake in one line."""
 
+import os
 import sys
 import time
 import warnings
 from collections.abc import Callable, Generator, Iterable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import replace
 from io import TextIOWrapper
 from pathlib import Path
@@ -20,13 +21,27 @@ T = TypeVar("T")
 INTERRUPTED = 130
 """The exit code after Ctrl-C."""
 
+BROKEN_PIPE = 141
+"""The exit code when nobody reads the answer to its end, as of a program that the signal stops."""
+
 PATIENCE = 1.0
 """Seconds before a progress bar appears."""
 
 
 def say(text: str) -> None:
-    """A line for the person, on stderr."""
-    print(text, file=sys.stderr)
+    """Lines for the person, on stderr."""
+    with suppress(OSError):  # nobody is there to hear it
+        print(printable(text), file=sys.stderr)
+
+
+def show(text: str, *, end: str = "\n") -> None:
+    """Lines of the answer, on stdout."""
+    print(printable(text), end=end)
+
+
+def printable(text: str) -> str:
+    """The text without what would steer a terminal, which a name in a file may hold."""
+    return "".join(c if c.isprintable() or c == "\n" else "\N{REPLACEMENT CHARACTER}" for c in text)
 
 
 def track(items: Iterable[T], label: str, total: int) -> Iterable[T]:
@@ -100,8 +115,12 @@ def run(app: Callable[[], None]) -> None:
             errors="backslashreplace"
         )  # names, where the terminal has not all letters
     try:
-        app()
+        _flushed(app)
+    except BrokenPipeError:
+        _leave_stdout()
+        sys.exit(BROKEN_PIPE)
     except (HalfwayError, OSError) as error:
+        _leave_stdout()
         if debug:
             raise
         say(f"halfway: {_one_line(error)}")
@@ -113,11 +132,26 @@ def run(app: Callable[[], None]) -> None:
         raise
 
 
+def _flushed(app: Callable[[], None]) -> None:
+    try:
+        app()
+    finally:
+        sys.stdout.flush()
+
+
+def _leave_stdout() -> None:
+    """Send what is still to be written nowhere, where it cannot be written: Python would complain when it ends."""
+    try:
+        sys.stdout.flush()
+    except OSError:
+        with suppress(OSError):
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
 def _one_line(error: Exception) -> str:
-    if isinstance(error, OSError) and error.filename is not None:
-        return f"{error.filename}: {error.strerror}."
-    # A name in a file may hold anything.
-    return "".join(c if c.isprintable() else " " for c in str(error))
+    if isinstance(error, OSError) and error.strerror:
+        return f"{error.filename or 'the output cannot be written'}: {error.strerror}."
+    return printable(str(error).replace("\n", " "))
 
 
 def _note(message: Warning | str, *_: object, **__: object) -> None:

@@ -1,17 +1,13 @@
 """``halfway export``: materials with a scene, ready for another renderer."""
 
-import json
-import re
 from enum import StrEnum
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
-from .console import say, track
-
-if TYPE_CHECKING:
-    from .materials import Material
+from .console import say, work
+from .options import Force, Library, What
 
 
 class Renderer(StrEnum):
@@ -21,13 +17,13 @@ class Renderer(StrEnum):
 
 
 def export(
-    words: Annotated[
-        list[str], typer.Argument(metavar="WHAT...", help="Files, LIB:NAME, recipes, routes.")
-    ],
+    words: What,
     renderer: Annotated[Renderer, typer.Option("--for", help="Who shall render it.")],
     output: Annotated[
         Path, typer.Option("--output", "-o", metavar="DIR", help="The folder to fill.")
     ],
+    library: Library = "",
+    force: Force = False,
 ) -> None:
     """Write materials for another renderer: a folder with the material, a scene and a page, to be run as it is.
 
@@ -38,39 +34,14 @@ def export(
     halfway export builtin:merl-abc:teflon --for pbrt-v4 -o teflon
     halfway export recipes.json --for pbrt-v2 -o frames
     """
-    from halfway.export import write_scene
+    from halfway.batch import filling
+    from halfway.export import write_scenes
+    from halfway.recipes import open_materials
 
-    from .materials import to_materials
-
-    materials = to_materials(words)
-    folders = [output] if len(materials) == 1 else _folders(output, materials)
-    pairs = zip(track(materials, "Exporting", len(materials)), folders, strict=True)
-    written = [
-        write_scene(
-            folder, material.load(), renderer, name=material.label, origin=_origin(material)
-        )
-        for material, folder in pairs
-    ]
-    for scene in written:
-        say(f"{scene.folder}: {', '.join(path.name for path in scene.files)}")
-    say(f"Next: cd {written[0].folder} && {written[0].command}")
-
-
-def _folders(output: Path, materials: list["Material"]) -> list[Path]:
-    """A folder for each, called as the material, and numbered where two are called the same."""
-    names = [re.sub(r"[^\w.+=-]+", "-", material.label).strip(".-") for material in materials]
-    twice = len(set(names)) < len(names)
-    return [
-        output / (f"{i:03d}-{name}" if twice or not name else name) for i, name in enumerate(names)
-    ]
-
-
-def _origin(material: "Material") -> str:
-    """What the page says of a mixed material: of what, and whose numbers those are."""
-    if material.library is None or material.recipe is None:
-        return ""
-    recipe = json.dumps(material.recipe.to_json()["weights"])
-    about = material.library.origin
-    sentences = (about.description, about.source, f"Licence: {about.licence}" if about.licence else "")  # fmt: skip
-    made = f"Made by halfway from `{material.library.name}`: `{recipe}`."
-    return "\n".join([made, *(f"{sentence}." for sentence in sentences if sentence)])
+    materials = open_materials(words, library=library)
+    with filling(output, "export", force=force) as folder:
+        written = write_scenes(folder, materials, renderer, work=work())
+    own = [output / scene.folder.relative_to(folder) for scene in written]
+    for scene, there in zip(written, own, strict=True):
+        say(f"{there}: {', '.join(path.name for path in scene.files)}")
+    say(f"Next: cd {own[0]} && {written[0].command}")

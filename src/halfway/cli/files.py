@@ -1,105 +1,165 @@
-"""``halfway convert``, ``halfway info`` and ``halfway fetch``: files in, files out."""
+"""``halfway convert``, ``halfway info``, ``halfway diff`` and ``halfway fetch``: files in, files out."""
 
+import json
 import sys
+from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from .console import say
+from . import options
+from .completion import complete_names
+from .console import say, show, work
+from .outputs import writing
 
 if TYPE_CHECKING:
     import numpy as np
 
-    from ..brdf import Brdf
+Material = Annotated[
+    str,
+    typer.Argument(
+        metavar="WHAT", help="A file, LIB:NAME, a name, a recipe.", autocompletion=complete_names
+    ),
+]
+
+
+class Suffix(StrEnum):
+    binary = "binary"
+    bsdf = "bsdf"
+    mtlx = "mtlx"
+    gltf = "gltf"
+    glb = "glb"
+
+
+class MetricName(StrEnum):
+    log = "log"
+    cube_root = "cube-root"
+    cosine = "cosine"
+    log_relative = "log-relative"
+    relative = "relative"
 
 
 def convert(
-    source: Annotated[str, typer.Argument(metavar="IN", help="A file, LIB:NAME or a recipe.")],
-    output: Annotated[
-        Path,
-        typer.Argument(
-            metavar="OUT", help=".binary (MERL) or .bsdf (RGL); .mtlx, .gltf, .glb: a fitted model."
-        ),
+    source: Annotated[
+        str,
+        typer.Argument(metavar="IN", help="What is one material, or many: a folder, a library."),
     ],
+    target: Annotated[
+        Path | None,
+        typer.Argument(
+            metavar="[OUT]",
+            help=".binary (MERL) or .bsdf (RGL); .mtlx, .gltf, .glb: a fitted model; no suffix: a folder.",
+        ),
+    ] = None,
+    output: Annotated[
+        Path | None, typer.Option("--output", "-o", metavar="OUT", help="The same as OUT.")
+    ] = None,
+    format: Annotated[Suffix, typer.Option(help="Of the files in a folder.")] = Suffix.binary,
+    grid: options.GridText = "",
     spectral: Annotated[
         bool, typer.Option(help="A .bsdf with spectra, for pbrt-v4 and spectral Mitsuba.")
     ] = False,
+    library: options.Library = "",
+    force: options.Force = False,
 ) -> None:
-    """Write a material in another format.
+    """Write a material in another format; or those of a folder, an archive, a library, a route, into a folder.
 
     \b
     halfway convert gold.binary gold.bsdf
     halfway convert builtin:merl-abc:teflon teflon.bsdf --spectral
     halfway convert gold.binary gold.mtlx                               an analytic fit: see halfway fit
+    halfway convert builtin:merl-abc tables --grid 30x30x60
     """
-    from halfway.export import MODEL_OF, write_fit
-    from halfway.fit import fit
-    from halfway.formats import write_brdf, write_rgl
+    from halfway.batch import filling
+    from halfway.export import write_material, write_materials
+    from halfway.recipes import open_materials
 
-    from .arguments import ArgumentError
-    from .materials import to_materials
+    from .arguments import ArgumentError, parse_grid
 
-    material, *others = to_materials([source])
-    if others:
-        raise ArgumentError(f"{source} is {1 + len(others)} materials: name one of them.")
-    if output.suffix == ".bsdf":
-        written = write_rgl(output, material.load(), spectral=spectral, description=material.label)
-        n_theta_i, side = written.resolution
-        say(
-            f"{output}: {n_theta_i} x {side} x {side}, {written.quality.psnr:.1f} dB on a lit sphere, "
-            f"{written.quality.relative_l1:.2%} mean error"
+    out = output or target
+    if out is None or (output and target):
+        raise ArgumentError("convert takes IN and OUT: expected one file or folder to write.")
+    materials, cells = open_materials([source], library=library), parse_grid(grid)
+    if not out.suffix:
+        with filling(out, "convert", force=force) as folder:
+            suffix = f".{format}"
+            write_materials(folder, materials, suffix, grid=cells, spectral=spectral, work=work())
+        say(f"{out}: {len(materials)} {format} files")
+        return
+    if len(materials) > 1:
+        raise ArgumentError(
+            f"{source} is {len(materials)} materials: name one of them, or a folder to write."
         )
-    elif output.suffix in MODEL_OF:
-        found = fit(material.load(), MODEL_OF[output.suffix], name=material.label)
-        write_fit(output, found)
-        say(f"{output}: {found.name}, {found.summary}")
-    else:
-        write_brdf(output, material.table())
-        say(f"{output}: {material.label}")
+    with writing(out, force=force):
+        say(f"{out}: {write_material(out, materials[0], grid=cells, spectral=spectral)}")
 
 
-def info(
-    source: Annotated[str, typer.Argument(metavar="FILE", help="A file, LIB:NAME or a recipe.")],
-) -> None:
+def info(source: Material, as_json: options.AsJson = False, library: options.Library = "") -> None:
     """Say what a file is: format, grid, source, colour.
 
     \b
     halfway info gold.binary
     halfway info builtin:merl-abc:teflon
     """
-    from halfway.brdf import directional_albedo
+    from halfway.recipes import open_materials
 
-    from .materials import to_materials
+    documents: list[object] = []
+    for material in open_materials([source], library=library):
+        facts = material.facts()
+        albedo = facts["albedo_20_degrees"]
+        colour = " ".join(f"{value:.3f}" for value in albedo)
+        origin = f", {facts['description']}" if facts["description"] else ""
+        if as_json:
+            documents.append({"format": 1, **facts})
+        else:
+            show(
+                f"{material.label}: {facts['is']}{origin}, albedo at 20 degrees {colour}",
+                end=_swatch(albedo),
+            )
+    if as_json:
+        print(json.dumps(documents, indent=1))
 
-    for material in to_materials([source]):
-        brdf = material.load()
-        albedo = directional_albedo(brdf, 0.35, n_theta_h=90, n_phi_h=24)
-        origin = material.library.origin.description if material.library else ""
-        facts = [*_facts(brdf), *filter(None, [origin])]
-        print(
-            f"{material.label}: {', '.join(facts)}, "
-            f"albedo at 20 degrees {albedo[0]:.3f} {albedo[1]:.3f} {albedo[2]:.3f} {_swatch(albedo)}"
-        )
 
+def diff(
+    a: Material,
+    b: Material,
+    metric: Annotated[
+        MetricName | None, typer.Option(help="This one alone. [default: all of them]")
+    ] = None,
+    grid: options.GridText = "",
+    as_json: options.AsJson = False,
+    library: options.Library = "",
+) -> None:
+    """Say how different two materials are: in each metric, below and beyond 80 degrees, and on a lit sphere.
 
-def _facts(brdf: "Brdf") -> list[str]:
-    """What the file holds, and where its numbers come from."""
-    from halfway.brdf import TabularBrdf
-    from halfway.formats import NeuralBrdf, RglBrdf
+    B is taken on the grid of A, the reference.
 
-    match brdf:
-        case TabularBrdf():
-            return [f"a table of {brdf.grid} cells"]
-        case RglBrdf():
-            kind = "isotropic" if brdf.is_isotropic else f"anisotropic by {brdf.anisotropy:.0%}"
-            size = f"{len(brdf.theta_i)} x {len(brdf.phi_i)} directions"
-            description = "".join(c for c in brdf.description if c.isprintable()).strip()
-            return [f"an RGL material ({kind})", size, brdf.source, *filter(None, [description])]
-        case NeuralBrdf():
-            return [f"a neural fit ({brdf.formula})"]
-        case _:
-            return [type(brdf).__name__]
+    \b
+    halfway diff gold.binary gold.bsdf
+    halfway diff cherry-235 tungsten-carbide --metric log
+    """
+    from halfway.brdf import MAPPINGS, difference, lit_sphere, quality
+    from halfway.recipes import open_materials
+
+    from .arguments import ArgumentError, parse_grid
+
+    materials = open_materials([a, b], library=library)
+    if len(materials) != 2:
+        raise ArgumentError(f"{a} and {b} are {len(materials)} materials: name two.")
+    first = materials[0].table(parse_grid(grid))
+    second = materials[1].table(first.grid)
+    names = [metric.value] if metric else [*MAPPINGS, "relative"]
+    differences = {name: difference(first, second, name)._asdict() for name in names}
+    sphere = quality(lit_sphere(second), lit_sphere(first))
+    if as_json:
+        seen = {"psnr": sphere.psnr, "relative_l1": sphere.relative_l1}
+        print(json.dumps({"format": 1, "lit_sphere": seen, **differences}, indent=1))
+        return
+    print(f"{'':14}{'to 80 degrees':>14}{'beyond':>10}")
+    for name, apart in differences.items():
+        print(f"{name:14}{apart['below']:14.5f}{apart['grazing']:10.5f}")
+    print(f"on a lit sphere {sphere.psnr:.1f} dB, {sphere.relative_l1:.2%} mean error")
 
 
 def fetch(
@@ -121,10 +181,10 @@ def fetch(
 
     wanted = dataset(name)
     say(f"{name}: {wanted.source}. Licence: {wanted.licence}.")
-    found = fetched(name, output, progress=_progress if sys.stderr.isatty() else None)
-    for path in found.files:
+    done = fetched(name, output, progress=_progress if sys.stderr.isatty() else None)
+    for path in done.files:
         say(f"{path}")
-    say(f"Licence and source: {found.licence}")
+    say(f"Licence and source: {done.licence}")
 
 
 def _progress(file: str, n_done: int, n_expected: int | None) -> None:
@@ -134,10 +194,12 @@ def _progress(file: str, n_done: int, n_expected: int | None) -> None:
 
 
 def _swatch(albedo: "np.ndarray") -> str:
-    """Two cells of the material's colour, where stdout is a terminal."""
+    """Two cells of the material's colour, where stdout is a terminal; and the line's end."""
     if not sys.stdout.isatty():
-        return ""
-    from halfway.render.pictures import to_8_bit
+        return "\n"
+    import numpy as np
 
-    r, g, b = to_8_bit(albedo[None, None])[0, 0]
-    return f"\x1b[48;2;{r};{g};{b}m    \x1b[0m"
+    from halfway.colour import to_srgb
+
+    r, g, b = np.round(255 * to_srgb(np.asarray(albedo))).astype(int)
+    return f" \x1b[48;2;{r};{g};{b}m    \x1b[0m\n"

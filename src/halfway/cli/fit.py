@@ -7,8 +7,9 @@ from typing import Annotated
 
 import typer
 
-from .console import say, track
-from .options import AsJson
+from .console import say, show, track
+from .options import AsJson, Force, Library, What
+from .outputs import writing
 
 
 class Model(StrEnum):
@@ -18,13 +19,7 @@ class Model(StrEnum):
 
 
 def fit(
-    words: Annotated[
-        list[str],
-        typer.Argument(
-            metavar="WHAT...",
-            help="Files, LIB:NAME, names, recipes, recipe files, whole libraries.",
-        ),
-    ],
+    words: What,
     output: Annotated[
         Path | None,
         typer.Option(
@@ -42,6 +37,8 @@ def fit(
         ),
     ] = None,
     as_json: AsJson = False,
+    library: Library = "",
+    force: Force = False,
 ) -> None:
     """Fit an analytic model to a material, and say how far off it is.
 
@@ -54,30 +51,32 @@ def fit(
     from halfway.export import model_of, write_fit
     from halfway.fit import DEFAULT_MODEL
     from halfway.fit import fit as fitted
+    from halfway.recipes import open_materials
 
     from .arguments import ArgumentError
-    from .materials import to_materials
 
-    default = model_of(output) if output else DEFAULT_MODEL
-    materials = to_materials(words)
+    kind = model or (model_of(output) if output else DEFAULT_MODEL)
+    materials = open_materials(words, library=library)
     if (output or picture) and len(materials) != 1:
         raise ArgumentError(
             f"{len(materials)} materials are given: -o and --picture take one. Name one of them."
         )
-    fits = [
-        fitted(material.load(), model or default, name=material.label)
-        for material in track(materials, "Fits", len(materials))
-    ]
+    with writing(output, picture, force=force):
+        fits = [
+            fitted(material.load(), kind, name=material.label)
+            for material in track(materials, "Fits", len(materials))
+        ]
+        if output:
+            write_fit(output, fits[0])
+        if picture:
+            from halfway.render import fit_sheet, pictures
+
+            pictures.write(picture, fit_sheet(materials[0].table(), fits[0]))
     if as_json:
-        print(json.dumps([found.to_json() for found in fits], indent=1))
+        print(json.dumps([fit.to_json() for fit in fits], indent=1))
     else:
-        for found in fits:
-            print(f"{found.name}, {found.summary}")
+        show("\n".join(f"{fit.name}, {fit.summary}" for fit in fits))
     if output:
-        write_fit(output, fits[0])
         say(f"{output}: {fits[0].name}")
     if picture:
-        from halfway.render import fit_sheet, pictures
-
-        pictures.write(picture, fit_sheet(materials[0].table(), fits[0]))
         say(f"{picture}: the table, the fit, the difference; below, in Mitsuba")

@@ -8,8 +8,8 @@ import typer
 
 from ..locations import DEFAULT_LIBRARY
 from .compact import compact
-from .console import say, working
-from .options import AsJson, Scheduler
+from .console import say, show, working
+from .options import AsJson, GridText, Lib, Scheduler
 
 if TYPE_CHECKING:
     from ..formats import Skipped
@@ -31,13 +31,7 @@ def build(
         str, typer.Option(help="Licence of the measurements, kept in the library.")
     ] = "",
     source: Annotated[str, typer.Option(help="Where they come from, kept in the library.")] = "",
-    grid: Annotated[
-        str,
-        typer.Option(
-            metavar="AxBxC",
-            help="Cells in theta_h, theta_d, phi_d for what is not a table. [default: 90x90x180]",
-        ),
-    ] = "",
+    grid: GridText = "",
     scheduler: Scheduler = "",
 ) -> None:
     """Tabulate every BRDF found in SOURCE into the library LIB. A SOURCE may be a library, and LIB itself: that adds to it.
@@ -59,7 +53,7 @@ def build(
             sources,
             to_location(output),
             origin=Origin(description, source, licence),
-            grid=parse_grid(grid) if grid else None,
+            grid=parse_grid(grid),
             work=work,
         )
     for line in skipped_lines(built.skipped):
@@ -88,8 +82,8 @@ app.command()(compact)
 
 @app.command()
 def info(
-    lib: Annotated[str, typer.Argument(metavar="[LIB]")] = DEFAULT_LIBRARY,
-    as_json: Annotated[bool, typer.Option("--json", help="For programs.")] = False,
+    lib: Lib = DEFAULT_LIBRARY,
+    as_json: AsJson = False,
 ) -> None:
     """Say what is in a library.
 
@@ -104,11 +98,12 @@ def info(
     if as_json:
         print(json.dumps({"format": 1} | facts, indent=1))
         return
-    print(f"{library.name}: {len(library)} materials on {library.grid}")
+    show(f"{library.name}: {len(library)} materials on {library.grid}")
     for key in ("description", "source", "licence"):
         if facts[key]:
-            print(f"{key}: {facts[key]}")
-    print("\n".join([*library.storage(), *(f"  {name}" for name in library.names)]))
+            show(f"{key}: {facts[key]}")
+    for line in [*library.storage(), *(f"  {name}" for name in library.names)]:
+        show(line.replace("\n", " "))
 
 
 @app.command()
@@ -131,19 +126,19 @@ def verify(
     from halfway.library import open_library
 
     with working(scheduler) as work:
-        found = open_library(lib).verify(work=work)
-    kinds = {"damaged": found.damaged, "changed": found.changed}
+        verdict = open_library(lib).verify(work=work)
+    kinds = {"damaged": verdict.damaged, "changed": verdict.changed}
     if as_json:
-        document = {"format": 1, "library": lib, "ok": found.ok, "right": found.n_right}
+        document = {"format": 1, "library": lib, "ok": verdict.ok, "right": verdict.n_right}
         print(json.dumps(document | kinds, indent=1))
     else:
-        for name in found.damaged:
-            print(f"damaged  {name}")
-        for name in found.changed:
-            print(f"changed since it was built  {name}")
-        advice = "" if found.ok and not found.changed else " Build the library again."
+        for name in verdict.damaged:
+            show(f"damaged  {name}")
+        for name in verdict.changed:
+            show(f"changed since it was built  {name}")
+        advice = "" if verdict.ok and not verdict.changed else " Build the library again."
         say(
-            f"{lib}: {found.n_right:,} of {found.n_right + len(found.damaged):,} materials right.{advice}"
+            f"{lib}: {verdict.n_right:,} of {verdict.n_right + len(verdict.damaged):,} materials right.{advice}"
         )
-    if not found.ok:
+    if not verdict.ok:
         raise typer.Exit(1)

@@ -6,18 +6,26 @@ from typing import Annotated
 import typer
 
 from . import options
+from .completion import complete_names
 from .console import say, work
-from .options import SpaceName
+from .options import Force, Library, SpaceName
+from .outputs import writing
 
 
 def mix(
     words: Annotated[
         list[str] | None,
-        typer.Argument(metavar="[LIB] [RECIPE]", help="Weights, or a recipe's JSON file."),
+        typer.Argument(
+            metavar="[LIB] [RECIPE]",
+            help="Weights of materials or files, or a recipe's JSON file.",
+            autocompletion=complete_names,
+        ),
     ] = None,
     output: Annotated[
         Path,
-        typer.Option("--output", "-o", metavar="FILE", help="The file to write: .binary, .bsdf."),
+        typer.Option(
+            "--output", "-o", metavar="FILE", help="The file to write, as halfway convert does."
+        ),
     ] = ...,  # pyright: ignore[reportArgumentType] (required)
     point: Annotated[
         str,
@@ -27,28 +35,33 @@ def mix(
     clamp: Annotated[
         bool, typer.Option(help="Take the nearest mix where the point is outside the hull.")
     ] = False,
+    library: Library = "",
+    force: Force = False,
 ) -> None:
     """Mix full tables into a new material.
 
     \b
     halfway mix "gold-paint=0.7, teflon=0.3" -o new.binary
+    halfway mix "scan.binary=0.5, chrome=0.5" -o new.binary
     halfway mix route/recipes.json:25 -o middle.binary
     halfway mix --point=-2e4,1e3,-500,0.1,0.05,0.02 --clamp -o there.binary     coordinates: halfway space
     """
-    import halfway
-    from halfway.formats import write_brdf
+    from halfway.export import write_material
+    from halfway.library import open_library
+    from halfway.recipes import NamedBrdf, open_recipe, split_library
     from halfway.space import make_space
 
-    from ..locations import DEFAULT_LIBRARY
-    from .arguments import ArgumentError, parse_point, to_recipe
+    from .arguments import ArgumentError, parse_point
 
+    words = words or []
     if point:
-        if len(words or []) > 1:
+        where, rest = split_library(words)
+        if rest:
             raise ArgumentError("--point and a recipe are given: a material takes one of them.")
-        library = halfway.open_library(words[0] if words else DEFAULT_LIBRARY)
-        x = parse_point(point)
-        recipe = make_space(space, library, work=work()).at(x, clamp=clamp).recipe
+        opened = open_library(library or where)
+        recipe = make_space(space, opened, work=work()).at(parse_point(point), clamp=clamp).recipe
     else:
-        library, recipe = to_recipe(words or [])
-    write_brdf(output, halfway.mix(library, recipe))
+        opened, recipe = open_recipe(words, library=library)
+    with writing(output, force=force):
+        write_material(output, NamedBrdf.mixed(opened, recipe))
     say(f"{output}: a mix of {', '.join(recipe.names)}. Next: halfway render {output} -o new.png")

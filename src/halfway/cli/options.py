@@ -7,6 +7,8 @@ from typing import Annotated
 
 import typer
 
+from .completion import complete_library, complete_names
+
 Scheduler = Annotated[
     str,
     typer.Option(
@@ -15,6 +17,32 @@ Scheduler = Annotated[
     ),
 ]
 AsJson = Annotated[bool, typer.Option("--json", help="For programs.")]
+Lib = Annotated[str, typer.Argument(metavar="[LIB]", autocompletion=complete_library)]
+What = Annotated[
+    list[str],
+    typer.Argument(
+        metavar="WHAT...",
+        help="Files, folders of them, LIB:NAME, names, recipes, recipe files, routes, whole libraries.",
+        autocompletion=complete_names,
+    ),
+]
+Library = Annotated[
+    str,
+    typer.Option(
+        "--library",
+        metavar="LIB",
+        help="Where recipes and names are from, instead of what they say.",
+    ),
+]
+GridText = Annotated[
+    str,
+    typer.Option(
+        "--grid",
+        metavar="AxBxC",
+        help="Cells in theta_h, theta_d, phi_d. [default: a table's own; 90x90x180]",
+    ),
+]
+Force = Annotated[bool, typer.Option("--force", help="Replace what others wrote, or changed.")]
 
 
 def _refuse_url(path: Path) -> Path:
@@ -117,13 +145,6 @@ RouteJson = Annotated[
 
 # halfway render
 
-What = Annotated[
-    list[str],
-    typer.Argument(
-        metavar="WHAT...",
-        help="Files, folders of them, LIB:NAME, names, recipes, recipe files, a route's folder.",
-    ),
-]
 Image = Annotated[
     Path,
     typer.Option(

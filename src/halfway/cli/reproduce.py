@@ -7,10 +7,11 @@ import typer
 
 from ..locations import DEFAULT_LIBRARY
 from .console import say, work
+from .options import Force, Lib
 
 
 def reproduce(
-    lib: Annotated[str, typer.Argument(metavar="[LIB]")] = DEFAULT_LIBRARY,
+    lib: Lib = DEFAULT_LIBRARY,
     output: Annotated[
         Path, typer.Option("--output", "-o", metavar="DIR", help="The folder to write.")
     ] = Path("paper"),
@@ -23,6 +24,7 @@ def reproduce(
         Path | None,
         typer.Option(help="Mesh (.ply, .obj) in place of the three objects of Figure 8."),
     ] = None,
+    force: Force = False,
 ) -> None:
     """Make every table and figure of the paper on a library, on one page beside the paper's numbers.
 
@@ -30,12 +32,12 @@ def reproduce(
     halfway reproduce merl_nbrdf.zip
     halfway reproduce merl.brdflib -o paper --env galileo.exr --mesh dragon.ply
     """
+    from halfway.batch import filling
     from halfway.library import open_library
     from halfway.paper import reproduce as reproduced
 
     library = open_library(lib)
     say(f"Library {library.name}: {library.origin.description}.")
-    reproduced(
-        output, library, size=size, spp=spp, env=env, mesh=mesh, work=work()
-    )  # fmt: skip
+    with filling(output, "reproduce", force=force) as folder:
+        reproduced(folder, library, size=size, spp=spp, env=env, mesh=mesh, work=work())
     say(f"{output}: page.html (and page.md), its pictures, and paper.json with every number")

@@ -33,8 +33,9 @@ def route(
     import halfway
     from halfway.export import write_route
     from halfway.locations import to_location
+    from halfway.recipes import split_library
 
-    from .arguments import parse_t, require_length, split_library
+    from .arguments import parse_t, require_length
 
     address, stops = split_library(words)
     library = halfway.open_library(address)

@@ -1,4 +1,4 @@
-"""``halfway space``: where the materials of a library are."""
+"""``halfway space``: where the materials of a library, and others, are."""
 
 import json
 from typing import Annotated
@@ -7,14 +7,20 @@ import typer
 
 from ..locations import DEFAULT_LIBRARY
 from . import options
-from .console import work
+from .completion import complete_names
+from .console import say, show, work
 from .options import SpaceName
 
 
 def space(
-    lib: Annotated[str, typer.Argument(metavar="[LIB]")] = DEFAULT_LIBRARY,
+    lib: options.Lib = DEFAULT_LIBRARY,
     near: Annotated[
-        str, typer.Option(metavar="NAME", help="List the materials nearest to this one.")
+        str,
+        typer.Option(
+            metavar="WHAT",
+            help="List the materials nearest to this one: a name, a file, a recipe.",
+            autocompletion=complete_names,
+        ),
     ] = "",
     n: Annotated[int, typer.Option("-n", help="How many neighbours.")] = 8,
     space: options.Space = SpaceName.anchored,
@@ -32,16 +38,20 @@ def space(
     from halfway.space import make_space
 
     library = open_library(lib)
-    library.index(near or library.names[0])
-    places = make_space(space, library, n_components=components, work=work())
-    neighbours = places.neighbours(near, n) if near else []
+    if near:
+        library.index(near)
+    chosen = make_space(space, library, n_components=components, work=work())
+    neighbours = chosen.neighbours(near, n) if near else []
     if as_json:
         nearest = {"neighbours": dict(neighbours)} if near else {}
-        print(json.dumps({**places.to_json(), **nearest}, indent=1))
+        print(json.dumps({**chosen.to_json(), **nearest}, indent=1))
     elif near:
-        for name, distance in neighbours:
-            print(f"{distance:10.4f}  {name}")
+        say(
+            f"distance, in the scaled coordinates of the {space} space, in which scores have a spread of 1"
+        )
+        show("\n".join(f"{distance:10.4f}  {name}" for name, distance in neighbours))
     else:
-        print("  ".join(f"{name:>12}" for name in places.coordinates))
-        for name, point in zip(places.names, places.points, strict=True):
-            print("  ".join(f"{value:12.6g}" for value in point), "", name)
+        say("in 1/sr")
+        show("  ".join(f"{name:>12}" for name in chosen.coordinates) + "  material")
+        for name, point in zip(chosen.names, chosen.points.tolist(), strict=True):
+            show("  ".join(f"{value:12.6g}" for value in point) + f"  {name}")

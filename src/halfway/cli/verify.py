@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from .console import say, work
+from .console import say, show, work
 from .options import AsJson
 
 N_SHOWN = 20
@@ -29,18 +29,18 @@ def verify(
     from halfway.batch import verify as verified
     from halfway.locations import to_location
 
-    found = verified(to_location(folder), work=work())
-    kinds = {"missing": found.missing, "changed": found.changed, "foreign": found.foreign}
+    verdict = verified(to_location(folder), work=work())
+    kinds = {"missing": verdict.missing, "changed": verdict.changed, "foreign": verdict.foreign}
     if as_json:
-        document = {"format": 1, "folder": folder, "ok": found.ok, "right": found.n_right}
+        document = {"format": 1, "folder": folder, "ok": verdict.ok, "right": verdict.n_right}
         print(json.dumps(document | kinds, indent=1))
     else:
         for kind, names in kinds.items():
             for name in names[:N_SHOWN]:
-                print(f"{kind}  {name}")
+                show(f"{kind}  {name}")
             if len(names) > N_SHOWN:
-                print(f"{kind}  ... and {len(names) - N_SHOWN:,} more")
+                show(f"{kind}  ... and {len(names) - N_SHOWN:,} more")
         counts = "".join(f", {len(names):,} {kind}" for kind, names in kinds.items() if names)
-        say(f"{folder}: {found.n_right:,} files as they were written{counts}")
-    if not found.ok:
+        say(f"{folder}: {verdict.n_right:,} files as they were written{counts}")
+    if not verdict.ok:
         raise typer.Exit(1)

@@ -1,22 +1,19 @@
 """``halfway view`` and ``halfway doctor``."""
 
+import json
+from dataclasses import asdict
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
 from ..locations import DEFAULT_LIBRARY
 from .console import say, work
-
-if TYPE_CHECKING:
-    from ..library import Library
-
-N_EXPORTED = 8
-"""Materials that an exported explorer carries where nobody says which."""
+from .options import AsJson, Force, Lib
 
 
 def view(
-    lib: Annotated[str, typer.Argument(metavar="[LIB]")] = DEFAULT_LIBRARY,
+    lib: Lib = DEFAULT_LIBRARY,
     port: Annotated[int, typer.Option(help="0 takes any free one.")] = 8765,
     browser: Annotated[bool, typer.Option(help="Open the browser.")] = True,
     export: Annotated[
@@ -28,8 +25,9 @@ def view(
     ] = "",
     n: Annotated[
         int | None,
-        typer.Option("-n", help=f"Of --export: as many that look most different; {N_EXPORTED}."),
+        typer.Option("-n", help="Of --export: as many that look most different. [default: 8]"),
     ] = None,
+    force: Force = False,
 ) -> None:
     """Explore a library in the browser: see the space, go anywhere, watch the material change.
 
@@ -42,46 +40,42 @@ def view(
 
     from .arguments import ArgumentError
 
-    if export is not None:
-        _export(open_library(lib), export, materials, n)
-    elif materials or n is not None:
-        option = "--materials" if materials else "-n"
+    chosen = [
+        option
+        for option, value in (("--materials", materials), ("-n", n))
+        if value not in ("", None)
+    ]
+    if len(chosen) == 2:
+        raise ArgumentError("--materials and -n both say what is exported: give one of them.")
+    if export is None and chosen:
         raise ArgumentError(
-            f"{option} says what is exported, and nothing is: add --export DIR, or leave it out."
+            f"{chosen[0]} says what is exported, and nothing is: add --export DIR, or leave it out."
         )
-    else:
+    library = open_library(lib)
+    if export is None:
         from halfway.server import serve
 
-        serve(open_library(lib), port=port, open_browser=browser, work=work())
+        serve(library, port=port, open_browser=browser, work=work())
+        return
+    from halfway.server import export_some
 
-
-def _export(library: "Library", folder: Path, materials: str, n: int | None) -> None:
-    from halfway.library import Subset
-    from halfway.look import Looks, most_different
-    from halfway.server import Page, export, require_own
-
-    from .arguments import ArgumentError
-
-    if materials and n is not None:
-        raise ArgumentError("--materials and -n both say what is exported: give one of them.")
-    require_own(folder)
     names = [name.strip() for name in materials.split(",") if name.strip()]
-    if not names:
-        images = Looks.fit(library, work=work())
-        names = most_different(images, min(N_EXPORTED, len(library)) if n is None else n)
-    written = export(Subset(library, names), folder, Page.load(), work=work())
-    say(f"{folder}: {', '.join(names)}")
+    written, shown = export_some(library, export, names, n=n, force=force, work=work())
+    say(f"{export}: {', '.join(shown)}")
     say(
         f"{written.n_files} files, {written.n_bytes / 1e6:.1f} MB. Any web server shows it: "
-        f"`python -m http.server -d {folder}` does on this machine."
+        f"`python -m http.server -d {export}` does on this machine."
     )
 
 
-def doctor() -> None:
-    """Say what rendering found on this machine, and what each missing thing costs; exit 1 where one is needed."""
+def doctor(as_json: AsJson = False) -> None:
+    """Say what rendering found on this machine, and what each missing thing costs."""
     from halfway.render import doctor as examine
 
     findings = examine()
+    if as_json:
+        print(json.dumps({"format": 1, "findings": [asdict(one) for one in findings]}, indent=1))
+        return
     for finding in findings:
         print(f"{finding.what:14} {finding.found or 'missing: ' + finding.cost}")
     if any(finding.needed and finding.found is None for finding in findings):

@@ -138,7 +138,17 @@ class Pca:
         """The k-component reconstruction of one material: the truncated PCA, which may be negative.
 
         Never a new material: that is `halfway.mix`. NaN where any material is unmeasured.
+
+        Raises
+        ------
+        LibraryError
+            When there are not as many components.
         """
+        n_known = self.eigenvectors.shape[2]
+        if not 0 <= n_components <= n_known:
+            raise LibraryError(
+                f"{n_components} components cannot be taken of {n_known}: expected 0 to {n_known}."
+            )
         v = self.eigenvectors[:, :, :n_components]
         i = library.index(name)
         projection = np.einsum("ck,cjk->cj", v[:, i], v)

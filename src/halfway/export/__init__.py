@@ -2,8 +2,10 @@
 
 from . import figures
 from .fits import MODEL_OF, model_of, write_fit
+from .materials import write_material, write_materials
 from .report import Report, TableRow, write_report
 from .routes import Written, write_route
+from .scene_folders import write_scenes
 from .scenes import write_scene
 
 __all__ = [
@@ -14,7 +16,10 @@ __all__ = [
     "figures",
     "model_of",
     "write_fit",
+    "write_material",
+    "write_materials",
     "write_report",
     "write_route",
     "write_scene",
+    "write_scenes",
 ]

@@ -6,7 +6,7 @@ of |u_i - u_i,k| / |u_i| (u centred) comes nearest to its numbers, and leads; th
 
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
@@ -58,12 +58,21 @@ class Report:
 
     @classmethod
     def of(
-        cls, library: Library, pca: Pca, *, n_components: Sequence[int] = N_COMPONENTS
+        cls,
+        library: Library,
+        pca: Pca,
+        *,
+        n_components: Sequence[int] = N_COMPONENTS,
+        spaces: Sequence[Mapping[str, Any]] = (),
     ) -> "Report":
-        """Table I for each number of components that the library has, and its eigenvalues."""
+        """Table I for each number of components that the library has, its eigenvalues, and what `compare_spaces` gives."""
         table = tuple(table_row(pca, k) for k in n_components if k < len(library))
         eigenvalues = dict(zip(CHANNELS, pca.eigenvalues.tolist(), strict=True))
-        return cls(library.name, library.origin.description, table, eigenvalues)
+        return cls(library.name, library.origin.description, table, eigenvalues, tuple(spaces))
+
+    def lines(self) -> list[str]:
+        """The tables, to be read."""
+        return [*_table_lines(self.table_1), *_space_lines(self.spaces)]
 
 
 def table_row(pca: Pca, n_components: int) -> TableRow:
@@ -89,7 +98,7 @@ def write_report(
     folder: Location, library: Library, pca: Pca, *, spaces: Sequence[Mapping[str, Any]] = ()
 ) -> Report:
     """Write report.json and the figures into ``folder``; ``spaces`` are those of `compare_spaces`."""
-    report = replace(Report.of(library, pca), spaces=tuple(spaces))
+    report = Report.of(library, pca, spaces=spaces)
     with replacing(folder / "report.json") as temporary:
         temporary.write_text(json.dumps(report.to_json(), indent=1))
     label = Path(library.name).name
@@ -100,3 +109,28 @@ def write_report(
     if spaces:
         figures.write(folder / "spaces", figures.spaces(spaces, label))
     return report
+
+
+def _table_lines(rows: Sequence[TableRow]) -> list[str]:
+    head = "components  mean relative error  uncentred  total    unexplained variance  rms error (1/sr)"
+    return [head] + [
+        f"{row.n_components:10d}  {row.mean_relative_error:19.4f}  {row.mean_relative_error_uncentred:9.4f}  "
+        f"{row.total_relative_error:7.4f}  {row.unexplained_variance:20.2e}  {row.rms_error:16.4g}"
+        for row in rows
+    ]
+
+
+def _space_lines(spaces: Sequence[Mapping[str, Any]]) -> list[str]:
+    head = "space     detour: median  90 %   max  jump, perceptual: max  judged  hue strays  realism  others  left out"
+    return [head, *map(_space_line, spaces)] if spaces else []
+
+
+def _space_line(space: Mapping[str, Any]) -> str:
+    detour, left = space["detour"], space.get("leave_one_out")
+    return (
+        f"{space['space']:9} {detour['median']:14.3f} {detour['90th percentile']:5.2f} {detour['max']:5.2f} "
+        f"{space['jump']['perceptual']['max']:22.3f} {space['judged_jump']['perceptual']['max']:7.3f} "
+        f"{space['hue_excursion']['median']:11.2f} {space['realism']['log by cell']['median']:8.4f} "
+        f"{space['others']['median']:7.2f} "
+        + (f"{left['log']['mean']:9.4f}" if left else "        -")
+    )

@@ -54,6 +54,10 @@ class NeuralBrdf(IsotropicModel):
 
     formula: ClassVar[str] = "NBRDF 6-21-21-3"
 
+    @property
+    def about(self) -> str:
+        return f"a neural fit ({self.formula})"
+
     def at(
         self, theta_h: Angle, theta_d: Angle, phi_d: Angle, cos_i: Angle, cos_o: Angle
     ) -> np.ndarray:

@@ -63,6 +63,15 @@ class RglBrdf(Brdf):
         """Whether turning the surface about its normal changes nothing."""
         return len(self.phi_i) <= 2
 
+    @property
+    def about(self) -> str:
+        kind = "isotropic" if self.is_isotropic else f"anisotropic by {self.anisotropy:.0%}"
+        size = f"{len(self.theta_i)} x {len(self.phi_i)} directions"
+        description = "".join(c for c in self.description if c.isprintable()).strip()
+        return ", ".join(
+            filter(None, [f"an RGL material ({kind})", size, self.source, description])
+        )
+
     def eval(self, wi: Directions, wo: Directions) -> Values:
         """f_r in 1/sr, shape (..., 3): 0 below the horizon; negative where the measured colour is out of gamut."""
         wi, wo = np.broadcast_arrays(wi, wo)

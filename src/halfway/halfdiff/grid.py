@@ -28,6 +28,7 @@ import numpy as np
 from jaxtyping import Float64, Int
 
 from .._types import Angle, Directions, Indices, Mask
+from ..errors import FormatError
 from .angles import HalfDiff, cosines, from_half_diff, to_half_diff
 
 
@@ -81,7 +82,19 @@ class Grid:
 
     @classmethod
     def merl(cls, n_theta_h: int = 90, n_theta_d: int = 90, n_phi_d: int = 180) -> "Grid":
-        """The grid of a MERL file whose header states these sizes."""
+        """The grid of a MERL file whose header states these sizes.
+
+        Raises
+        ------
+        FormatError
+            When a size is no positive whole number.
+        """
+        for size in (n_theta_h, n_theta_d, n_phi_d):
+            if not isinstance(size, int | np.integer) or size < 1:
+                raise FormatError(
+                    f"a grid of {n_theta_h} x {n_theta_d} x {n_phi_d} cells is none: expected whole numbers from 1 on, "
+                    "such as 90, 90, 180."
+                )
         return cls(
             (
                 Axis("theta_h", n_theta_h, math.pi / 2, power=2),

@@ -1,7 +1,30 @@
-"""Recipes, and the mixing of recipes into tables."""
+"""Recipes, what a person writes for them, and the mixing of recipes into tables."""
 
 from .blend import Blend
 from .mixing import Mixer, mix
+from .named import NamedBrdf, file_names
+from .opening import (
+    ChangedLibraryWarning,
+    is_library,
+    open_materials,
+    open_recipe,
+    split_address,
+    split_library,
+)
 from .recipe import CHANNELS, Recipe
 
-__all__ = ["CHANNELS", "Blend", "Mixer", "Recipe", "mix"]
+__all__ = [
+    "CHANNELS",
+    "Blend",
+    "ChangedLibraryWarning",
+    "Mixer",
+    "NamedBrdf",
+    "Recipe",
+    "file_names",
+    "is_library",
+    "mix",
+    "open_materials",
+    "open_recipe",
+    "split_address",
+    "split_library",
+]

@@ -9,6 +9,8 @@ the second form where the channels differ. Every weight is positive and each cha
 are mixed, where it is not linear; ``"library_address"`` and ``"library_checksum"`` may say which library it is.
 """
 
+import re
+import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -23,6 +25,8 @@ from .blend import Blend
 CHANNELS: tuple[str, str, str] = ("r", "g", "b")
 SUM_TOLERANCE = 1e-6
 """How far a channel's written weights may sum from 1; they are then scaled to sum to 1 exactly."""
+_PART = re.compile(r"\s*([^=].*?)\s*=\s*([^=,]*?)\s*(?:,|$)", re.DOTALL)
+"""A name, its last sign of equality, and a weight."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,21 +104,30 @@ class Recipe:
 
     @classmethod
     def from_text(cls, library: str | LibraryRef | Library, text: str) -> "Recipe":
-        """The recipe written as ``"gold-paint=0.7, teflon=0.3"``."""
+        """The recipe written as ``"gold-paint=0.7, teflon=0.3"``, or in parts of a hundred.
+
+        A name may hold commas, and signs of equality that no comma follows.
+
+        Raises
+        ------
+        RecipeError
+            As `of`; and when a name has no weight, or two.
+        """
         weights: dict[str, float] = {}
-        for part in filter(None, (part.strip() for part in text.split(","))):
-            name, equals, number = (piece.strip() for piece in part.rpartition("="))
-            if not equals:
-                raise RecipeError(
-                    f'{part!r} has no weight: expected NAME=WEIGHT, such as "gold-paint=0.7, teflon=0.3".'
-                )
+        *parts, rest = _PART.split(text)
+        left = " ".join([*parts[::3], rest]).strip(" ,")
+        if left or not parts:
+            raise RecipeError(
+                f'{left!r} has no weight: expected NAME=WEIGHT, such as "gold-paint=0.7, teflon=0.3".'
+            )
+        for name, number in zip(parts[1::3], parts[2::3], strict=True):
             if name in weights:
                 raise RecipeError(f"{name} is given twice in {text!r}: write each material once.")
             try:
                 weights[name] = float(number)
             except ValueError:
                 raise RecipeError(f"the weight of {name}, {number!r}, is no number.") from None
-        return cls.of(library, weights)
+        return cls.of(library, _of_one(weights))
 
     @classmethod
     def from_json(cls, document: Any, *, library: str | LibraryRef | Library = "") -> "Recipe":
@@ -140,6 +153,14 @@ class Recipe:
         weights = channels[0] if same else dict(zip(CHANNELS, channels, strict=True))
         blend = {} if self.blend is Blend.LINEAR else {"blend": str(self.blend)}
         return {"library": self.library.name, **blend, "weights": weights}
+
+
+def _of_one(weights: Mapping[str, float]) -> Mapping[str, float]:
+    """Weights that sum to 1 instead of 100; others as they are."""
+    if not abs(sum(weights.values()) / 100 - 1) <= SUM_TOLERANCE:
+        return weights
+    warnings.warn("the weights sum to 100: they are taken as parts of a hundred.", stacklevel=3)
+    return {name: weight / 100 for name, weight in weights.items()}
 
 
 def _library_in(document: Mapping[str, Any]) -> LibraryRef | None:

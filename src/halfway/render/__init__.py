@@ -7,6 +7,7 @@ from .fits import fit_sheet
 from .frames import Frame, write_frames
 from .renderer import QUALITY, Renderer
 from .scenes import SCENES, Scene
+from .sheets import in_rows, write_animation, write_folder, write_sheet
 from .studio import studio
 from .variant import register
 
@@ -20,8 +21,12 @@ __all__ = [
     "Scene",
     "doctor",
     "fit_sheet",
+    "in_rows",
     "pictures",
     "register",
     "studio",
+    "write_animation",
+    "write_folder",
     "write_frames",
+    "write_sheet",
 ]

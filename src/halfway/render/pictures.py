@@ -24,6 +24,7 @@ from ..files import replacing
 PAPER = 255
 INK = (70, 70, 70)
 WRITTEN = (".png", ".jpg", ".jpeg", ".webp", ".exr")
+MOST_FPS = 240
 ANIMATED = (".webp", ".gif", ".mp4")
 
 
@@ -88,10 +89,12 @@ def animate(
     Raises
     ------
     OutputError
-        When the suffix is of no known kind, there are no pictures, or the file cannot be written.
+        When the suffix is of no known kind, there are no pictures, ``fps`` is out of range, or the file cannot be written.
     """
     path = Path(path)
     _require_suffix(path, ANIMATED)
+    if not 0 < fps <= MOST_FPS:
+        raise OutputError(f"{fps} frames per second are no animation: expected 1 to {MOST_FPS}.")
     coded = (to_8_bit(image, exposure=exposure) for image in images)
     first = next(coded, None)
     if first is None:

@@ -15,9 +15,10 @@ from .run import serve
 
 if TYPE_CHECKING:
     from .app import app_of, create_app
+    from .choosing import export_some
     from .explorer import Explorer
     from .schema import Point
-    from .static import export, require_own
+    from .static import export
 
 __all__ = [
     "Explorer",
@@ -26,17 +27,18 @@ __all__ = [
     "app_of",
     "create_app",
     "export",
+    "export_some",
     "refresh",
-    "require_own",
     "serve",
 ]
 
 # The web framework takes half a second to load, in which the browser starts already: see `run`.
 _LATER = {
     "app": ("app_of", "create_app"),
+    "choosing": ("export_some",),
     "explorer": ("Explorer",),
     "schema": ("Point",),
-    "static": ("export", "require_own"),
+    "static": ("export",),
 }
 
 

@@ -32,7 +32,10 @@ def serve(
     """
     page = Page.load()
     with listen(port) as listener:
-        address = f"http://127.0.0.1:{listener.getsockname()[1]}/"
+        had = listener.getsockname()[1]
+        if port not in (0, had):
+            print(f"note: port {port} is taken, so this is {had}", file=sys.stderr)
+        address = f"http://127.0.0.1:{had}/"
         print(f"{library.name}: {address} (Ctrl-C stops)", file=sys.stderr, flush=True)
         if open_browser:
             # The socket listens already: the browser starts meanwhile, and waits until the first answer.
@@ -52,6 +55,8 @@ def serve(
 
 def listen(port: int) -> socket.socket:
     """A socket that listens on the loopback address: at ``port``, or at a free one when that is taken."""
+    if not 0 <= port < 1 << 16:
+        raise HalfwayError(f"{port} is no port: expected 1 to 65535, or 0 for any free one.")
     for candidate in dict.fromkeys((port, 0)):
         listener = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
         # A port in use by another program is not shared, on any system.

@@ -25,8 +25,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..batch import filling
 from ..errors import DegenerateSpaceWarning, OutputError
-from ..files import replacing_folder
 from ..library import Library
 from ..look import Looks
 from ..space import SPACES, Route, Space, Triangulation, lengths
@@ -37,7 +37,6 @@ from .guard import META_POLICY
 from .page import Page
 from .schema import BlockFile, Folder, LegFile, Model, SpaceFile, TriangulationView
 
-MARK = Path("data/explorer.json")
 N_LARGEST = 40
 """Materials that a folder takes: 780 ways in each space, and a triangulation of some thousand simplices."""
 DATA = "./data/"
@@ -55,6 +54,7 @@ def export(
     folder: Path,
     page: Page,
     *,
+    force: bool = False,
     work: Work = HERE,
 ) -> Exported:
     """Write the explorer of ``library`` into ``folder``, in place of an earlier one.
@@ -62,37 +62,21 @@ def export(
     Raises
     ------
     OutputError
-        When the folder holds anything else or cannot be written, or the library is too large for files.
+        When the folder holds anything else, without ``force``, or cannot be written, or the library is too large for files.
     """
-    require_own(folder)
     if len(library) > N_LARGEST:
         raise OutputError(
             f"{library.name} has {len(library)} materials: a folder takes at most {N_LARGEST}. "
             "Name some with --materials, or choose with -n."
         )
-    explorer = Explorer(library, work=work)
-    with replacing_folder(folder) as temporary:
-        files = _Files(temporary)
+    with filling(folder, "view", force=force) as scratch:
+        explorer = Explorer(library, work=work)
+        files = _Files(scratch)
         _write_page(files, page)
         _write_blocks(files, explorer, work)
         for name in SPACES:
             _write_space(files, explorer, name, work)
         return Exported(files.n_files, files.n_bytes)
-
-
-def require_own(folder: Path) -> None:
-    """Refuse a folder with files that `export` did not write.
-
-    Raises
-    ------
-    OutputError
-        When there are any.
-    """
-    if folder.is_dir() and any(folder.iterdir()) and not (folder / MARK).is_file():
-        raise OutputError(
-            f"{folder} holds files that are no explorer's: expected an empty folder, or an earlier export. "
-            "Choose another with --export."
-        )
 
 
 class _Files:
@@ -139,7 +123,7 @@ def _write_blocks(files: _Files, explorer: Explorer, work: Work) -> None:
         for i, name in enumerate(work.track(names, "Tables", len(names)))
     ]
     files.json(
-        str(MARK),
+        "data/explorer.json",
         Folder(
             library=explorer.summary().model_copy(update={"exports": []}),
             thumbnails=files.block("data/thumbnails.bin", explorer.thumbnails()),

@@ -1,0 +1,77 @@
+"""A material as a file, in whichever format the suffix names.
+
+.binary             MERL: the table itself
+.bsdf               RGL: resampled, for Mitsuba and pbrt-v4
+.mtlx, .gltf, .glb  an analytic model, fitted
+"""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from ..errors import OutputError
+from ..fit import fit
+from ..formats import write_brdf, write_rgl
+from ..halfdiff import Grid
+from ..recipes import NamedBrdf, file_names
+from ..tasks import HERE, Work
+from .fits import MODEL_OF, write_fit
+
+
+def write_material(
+    path: Path, material: NamedBrdf, *, grid: Grid | None = None, spectral: bool = False
+) -> str:
+    """Write a material, and say what the file holds and how near to the material that is.
+
+    Parameters
+    ----------
+    grid : Grid, optional
+        Sample it there first; by default a table stays as it is.
+    spectral : bool
+        Of a ``.bsdf``: with spectra, for pbrt-v4 and spectral Mitsuba.
+
+    Raises
+    ------
+    OutputError
+        When the suffix names no format, the format cannot hold the material, or the file cannot be written.
+    """
+    if path.suffix == ".bsdf":
+        brdf = material.table(grid) if grid else material.load()
+        written = write_rgl(path, brdf, spectral=spectral, description=material.label)
+        n_theta_i, side = written.resolution
+        return (
+            f"{n_theta_i} x {side} x {side}, {written.quality.psnr:.1f} dB on a lit sphere, "
+            f"{written.quality.relative_l1:.2%} mean error"
+        )
+    if path.suffix in MODEL_OF and path.suffix != ".json":
+        brdf = material.table(grid) if grid else material.load()
+        fitted = fit(brdf, MODEL_OF[path.suffix], name=material.label)
+        write_fit(path, fitted)
+        return f"{fitted.name}, {fitted.summary}"
+    table = material.table(grid)
+    write_brdf(path, table)
+    return f"{material.label}, {table.grid} cells"
+
+
+def write_materials(
+    folder: Path,
+    materials: Sequence[NamedBrdf],
+    suffix: str,
+    *,
+    grid: Grid | None = None,
+    spectral: bool = False,
+    work: Work = HERE,
+) -> list[Path]:
+    """Write a file of each material into a folder, called as it is; see `write_material`.
+
+    Raises
+    ------
+    OutputError
+        As `write_material`.
+    """
+    if not materials:
+        raise OutputError(f"{folder} would hold no materials: expected one or more.")
+    paths = [folder / name for name in file_names(materials, suffix)]
+    pairs = list(zip(paths, materials, strict=True))
+    for path, material in work.track(pairs, "Converting", len(pairs)):
+        write_material(path, material, grid=grid, spectral=spectral)
+    return paths

@@ -1,0 +1,243 @@
+"""From what a person writes to materials, as `open_library` goes from it to a library.
+
+gold-paint                          a material of the default library
+LIB:gold-paint                      one of another
+"gold-paint=0.7, teflon=0.3"        weights; also LIB:WEIGHTS
+"scan.binary=0.5, chrome=0.5"       weights of files, beside materials or not
+recipe.json, recipes.json:25        a recipe in a file, one of a route's
+recipes.json, or its folder         all of a route's
+scan.binary, or a folder of files   BRDFs as their files have them
+LIB                                 all materials of a library
+"""
+
+import json
+import warnings
+from collections.abc import Iterator, Mapping, Sequence
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+from ..brdf import TabularBrdf
+from ..errors import RecipeError
+from ..formats import read_brdf
+from ..halfdiff import MERL
+from ..library import DEFAULT_LIBRARY, Library, LibraryRef, Origin, ProceduralLibrary, open_library
+from ..locations import SCHEME, Location, RemotePath, to_location
+from .blend import Blend
+from .mixing import Mixer
+from .named import NamedBrdf, made_of
+from .recipe import Recipe
+
+FILES = (".binary", ".bsdf", ".h5")
+"""Suffixes that nobody means a material's name by."""
+LIBRARIES = (".brdflib", ".brdfc", ".zip")
+
+
+class ChangedLibraryWarning(UserWarning):
+    """A library holds other tables than it did when a recipe was written."""
+
+
+def split_library(words: Sequence[str]) -> tuple[str, list[str]]:
+    """The library that the first word names, or the default; and the other words."""
+    first, *rest = words or [""]
+    return (first, rest) if is_library(first) else (DEFAULT_LIBRARY, list(words))
+
+
+def is_library(word: str) -> bool:
+    """Whether a word names a library rather than a material."""
+    path = to_location(word)
+    return (
+        word.startswith("builtin:")
+        or path.suffix in LIBRARIES
+        or (bool(word) and (path / "library.json").exists())
+    )
+
+
+def split_address(word: str) -> list[str]:
+    """``LIB:NAME`` at the last colon that has a library before it; names may hold others."""
+    ends = [i for i, letter in enumerate(word) if letter == ":"]
+    return next(([word[:i], word[i + 1 :]] for i in reversed(ends) if is_library(word[:i])), [word])
+
+
+def open_recipe(words: Sequence[str], *, library: str = "") -> tuple[Library, Recipe]:
+    """The recipe that ``[LIB] WHAT`` stands for, and its library; ``library`` is another to take it of.
+
+    WHAT is weights ("gold-paint=0.7, teflon=0.3"), a recipe's JSON file, one of a route's (``recipes.json:25``), or the
+    name of a material.
+
+    Raises
+    ------
+    RecipeError
+        When the words stand for none.
+    """
+    where, rest = split_library(words)
+    if len(rest) != 1:
+        raise RecipeError(
+            f'{len(rest)} recipes are given where one is expected: quote it, such as "gold-paint=0.7, teflon=0.3".'
+        )
+    (what,) = rest
+    path, index = _json_file(what)
+    if path is None:
+        return _of_weights(library or where, what)
+    document = _read_object(path)
+    elsewhere = library or (where if len(words) > 1 else "")
+    opened = _library_of(document, path, elsewhere)
+    one = _one_of(document["recipes"], path, index) if "recipes" in document else document
+    return opened, _recipe(opened, document, one)
+
+
+def open_materials(words: Sequence[str], *, library: str = "") -> list[NamedBrdf]:
+    """The materials that ``words`` stand for; ``library`` is another to take recipes and names of.
+
+    Raises
+    ------
+    RecipeError
+        When a word stands for none.
+    """
+    return [material for word in words for material in _materials(word, library)]
+
+
+def _materials(word: str, elsewhere: str) -> Iterator[NamedBrdf]:
+    path = to_location(word)
+    if (path / "recipes.json").exists():
+        yield from _route(path / "recipes.json", elsewhere)
+    elif path.name == "recipes.json" and path.exists():
+        yield from _route(path, elsewhere)
+    elif is_library(word) and ":" not in word.removeprefix("builtin:").rpartition(SCHEME)[2]:
+        yield from _all_of(open_library(word))
+    elif isinstance(path, RemotePath) and path.exists():
+        raise RecipeError(
+            f"{path} is no library and no route: expected one of these at a URL. Copy the file here first."
+        )
+    elif isinstance(path, Path) and path.is_dir():
+        yield from _folder(path)
+    elif _json_file(word)[0]:
+        yield NamedBrdf.mixed(*open_recipe([word], library=elsewhere), word)
+    elif isinstance(path, Path) and path.exists():
+        yield _file(path)
+    elif path.suffix in FILES and "=" not in word:
+        raise RecipeError(f"there is no file {path}: see where you are, or name a material.")
+    else:
+        words = split_address(word)
+        yield NamedBrdf.mixed(*open_recipe(words, library=elsewhere), words[-1])
+
+
+def _all_of(library: Library) -> Iterator[NamedBrdf]:
+    for name in library.names:
+        recipe = Recipe.of(library, {name: 1.0})
+        of = made_of(library, recipe)
+        yield NamedBrdf(name, partial(library.brdf, name), of, name, library, recipe)
+
+
+def _file(path: Path) -> NamedBrdf:
+    status = path.stat()
+    of = {"file": str(path), "bytes": status.st_size, "modified": status.st_mtime_ns}
+    return NamedBrdf(path.stem, partial(read_brdf, path), of, path.stem)
+
+
+def _folder(folder: Path) -> Iterator[NamedBrdf]:
+    """The files of BRDFs in it."""
+    files = sorted(path for path in folder.iterdir() if path.suffix in FILES)
+    if not files:
+        raise RecipeError(
+            f"{folder} is a folder without recipes.json and without {', '.join(FILES)} files: "
+            "expected a route's folder, files of BRDFs, or LIB:NAME."
+        )
+    yield from map(_file, files)
+
+
+def _route(path: Location, elsewhere: str) -> Iterator[NamedBrdf]:
+    document = _read_object(path)
+    try:
+        entries = [(f"{entry['t']:.2f}", entry) for entry in document["recipes"]]
+    except (KeyError, TypeError, AttributeError, ValueError):
+        raise RecipeError(
+            f"{path} is no route: expected recipes.json as `halfway route` writes it."
+        ) from None
+    library = _library_of(document, path, elsewhere)
+    mixer = Mixer(library)
+    digits = max(3, len(str(len(entries) - 1)))
+    for i, (label, entry) in enumerate(entries):
+        recipe, stem = _recipe(library, document, entry), f"{i:0{digits}d}"
+        load = partial(mixer.mix, recipe)
+        yield NamedBrdf(label, load, made_of(library, recipe), stem, library, recipe)
+
+
+# Weights
+
+
+def _of_weights(where: str, text: str) -> tuple[Library, Recipe]:
+    """The recipe that weights or a name stand for, of a library that holds the files among its names."""
+    library = open_library(where)
+    recipe = Recipe.from_text(library, text if "=" in text else f"{text}=1")
+    files = [
+        name for name in recipe.names if name not in library.names and Path(name).suffix in FILES
+    ]
+    if not files:
+        for name in recipe.names:
+            library.index(name)
+        return library, recipe
+    library = _with_files(library, recipe.names, files)
+    return library, Recipe(LibraryRef.of(library), recipe.names, recipe.weights)
+
+
+def _with_files(library: Library, names: Sequence[str], files: Sequence[str]) -> Library:
+    """The library of these materials alone, of which some are files; on the grid of the first file that has one."""
+    read = {name: read_brdf(name) for name in files}
+    brdfs = {name: read[name] if name in read else library.brdf(name) for name in names}
+    grids = (brdf.grid for brdf in brdfs.values() if isinstance(brdf, TabularBrdf))
+    only = len(files) == len(names)
+    called = ", ".join([*files, *([] if only else [library.name])])
+    origin = Origin() if only else library.origin
+    return ProceduralLibrary(called, brdfs, grid=next(grids, MERL), origin=origin)
+
+
+# Documents
+
+
+def _json_file(what: str) -> tuple[Path | None, str]:
+    """The file and the index of ``FILE.json`` or ``FILE.json:INDEX``; None where it is no such file."""
+    file, _, index = what.rpartition(".json:")
+    path = Path(f"{file}.json") if file else Path(what)
+    return (path, index if file else "") if path.suffix == ".json" else (None, "")
+
+
+def _read_object(path: Location) -> Mapping[str, Any]:
+    try:
+        document = json.loads(path.read_text())
+    except RecursionError:
+        raise RecipeError(f"{path} nests too deep: expected a recipe's JSON.") from None
+    except ValueError as error:
+        raise RecipeError(f"{path} is no JSON: {error}.") from None
+    if not isinstance(document, dict):
+        raise RecipeError(f"{path} is no recipe: expected a JSON object with weights.")
+    return document
+
+
+def _library_of(document: Mapping[str, Any], path: Location, elsewhere: str) -> Library:
+    """The library that a document names, or the one that a person does; says whether its tables are still the same."""
+    named = document.get("library_address") or document.get("library") or DEFAULT_LIBRARY
+    library = open_library(elsewhere or str(named))
+    if document.get("library_checksum", library.checksum) != library.checksum:
+        warnings.warn(
+            f"{library.address} is not, or no longer, the library that {path} was written for: these are other tables. "
+            "Name that library with --library, or make the route again.",
+            ChangedLibraryWarning,
+            stacklevel=4,
+        )
+    return library
+
+
+def _one_of(recipes: Any, path: Path, index: str) -> Mapping[str, Any]:
+    n = len(recipes) if isinstance(recipes, list) else 0
+    if not index.isdecimal() or int(index) >= n:
+        raise RecipeError(f"{path} holds {n} recipes: name one, {path}:0 to {path}:{n - 1}.")
+    return recipes[int(index)]
+
+
+def _recipe(library: Library, document: Mapping[str, Any], one: Any) -> Recipe:
+    """One recipe of a document, of the library that was opened for it."""
+    weights = one.get("weights") if isinstance(one, dict) else None
+    return Recipe.from_json(
+        {"blend": document.get("blend", Blend.LINEAR), "weights": weights}, library=library
+    )
