@@ -14,7 +14,9 @@ def compiled(function: F) -> F:
     What is compiled is kept beside the function or in the user's cache folder; where neither can be written, as in a
     container or on a cluster node, it is compiled anew in each process. ``NUMBA_CACHE_DIR`` names a folder for it.
     """
+    kernel: Any
     try:
-        return numba.njit(nogil=True, cache=True)(function)
+        kernel = numba.njit(nogil=True, cache=True)(function)
     except RuntimeError:  # numba's word for having no folder
-        return numba.njit(nogil=True)(function)
+        kernel = numba.njit(nogil=True)(function)
+    return kernel

@@ -11,6 +11,7 @@ import time
 from collections.abc import Generator
 from contextlib import contextmanager, suppress
 from pathlib import Path
+from typing import Any
 
 from .errors import OutputError
 from .locations import Location, RemotePath
@@ -97,22 +98,30 @@ def scratch_folder(path: Location) -> Generator[Path]:
 
 
 @contextmanager
-def lock(folder: Path, *, wait: bool = False) -> Generator[bool]:
-    """Whether a folder's lock could be had, at once or by waiting for it; never where the system has none.
+def lock(folder: Path, *, wait: bool = False) -> Generator[bool | None]:
+    """Whether a folder's lock could be had, at once or by waiting for it; None where the system or the disk has no locks.
 
-    It ends with the block, and with the process however that ends.
+    It ends with the block, and with the process however that ends. It is the folder's own: a lock file, as lock libraries
+    keep one, would stay behind among a person's files.
     """
-    handle = os.open(folder, os.O_RDONLY) if fcntl else None
+    if fcntl is None:
+        yield None
+        return
+    handle = os.open(folder, os.O_RDONLY)
     try:
-        held = False
-        if fcntl and handle is not None:
-            with suppress(OSError):
-                fcntl.flock(handle, fcntl.LOCK_EX | (0 if wait else fcntl.LOCK_NB))
-                held = True
-        yield held
+        yield _flock(fcntl, handle, wait)
     finally:
-        if handle is not None:
-            os.close(handle)
+        os.close(handle)
+
+
+def _flock(fcntl: Any, handle: int, wait: bool) -> bool | None:
+    try:
+        fcntl.flock(handle, fcntl.LOCK_EX | (0 if wait else fcntl.LOCK_NB))
+    except BlockingIOError:
+        return False
+    except OSError:
+        return None
+    return True
 
 
 def sweep(folder: Location) -> None:

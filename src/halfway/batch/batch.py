@@ -9,13 +9,12 @@ that it had; any other that the folder's manifest names is removed before the re
 name is whole and right at any time. What no manifest names is somebody else's: it stays, and is never written over.
 """
 
-import os
 from collections.abc import Container, Generator, Iterable, Mapping
 from contextlib import contextmanager, suppress
 from typing import Any
 
 from ..errors import OutputError
-from ..files import explaining, require_space, sweep
+from ..files import explaining, lock, require_space, sweep
 from ..locations import Location, RemotePath, append_text
 from ..tasks import HERE, Work
 from .manifest import JOURNAL, Checksum, Entry, Manifest, journal_line, right_files
@@ -98,29 +97,16 @@ def _folder(folder: Location) -> Generator[None]:
 
 @contextmanager
 def _alone(folder: Location) -> Generator[None]:
-    """Hold the folder's lock, which ends with the process however it ends; without one where the system has none."""
-    try:
-        import fcntl
-    except ImportError:
-        yield
-        return
+    """Hold the folder's lock; without one where there is none to be had."""
     if isinstance(folder, RemotePath):
         yield
         return
-    handle = os.open(folder, os.O_RDONLY)
-    try:
-        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except BlockingIOError:
-        os.close(handle)
-        raise OutputError(
-            f"{folder} is being written by another halfway: wait for it, or choose another folder with -o."
-        ) from None
-    except OSError:  # a file system without locks
-        pass
-    try:
+    with lock(folder) as held:
+        if held is False:
+            raise OutputError(
+                f"{folder} is being written by another halfway: wait for it, or choose another folder with -o."
+            )
         yield
-    finally:
-        os.close(handle)
 
 
 def _prepare(

@@ -4,15 +4,22 @@ All but the last are root mean squares of mapped values, over pairs of direction
 
     d(f, g) = sqrt( sum_j w_j |m(f_j) - m(g_j)|^2 / sum_j w_j )
 
-    cosine         m = f cos_i                                  Ngan et al. 2005
-    cube-root      m = (f cos_i)^(1/3)                          Fores et al. 2012
-    log            m = ln(1 + f cos_i)                          Löw et al. 2012
-    log-relative   m = ln(f w + .001), w = cos_i cos_o          Nielsen et al. 2015
-    relative       |f - g| / |f|, no weights                    the paper's Table I
+    cosine         m = f cos_i                    the radiance that an even light reflects; ruled by highlights [1]
+    cube-root      m = (f cos_i)^(1/3)            near to lightness [2]
+    log            m = ln(1 + f cos_i)            linear where dark, logarithmic in highlights [3]
+    log-relative   m = ln(f w + .001)             w = max(cos_i cos_o, .001): dark values as much as bright ones [4]
+    relative       |f - g| / |f|, no weights      the paper's Table I
 
 ``w_j`` is the solid angle of cell j, its measure in the integral over pairs of directions (`Grid.solid_angles`), and the
 cosines are those at its centre. A cell counts where both tables are measured. Cells in which either direction is more
 than 80 degrees from the normal, where measurements are poor and 1/cos is large, are reported apart.
+
+[1] A. Ngan, F. Durand, W. Matusik, "Experimental Analysis of BRDF Models", EGSR 2005, section 3.1.
+[2] A. Fores, J. Ferwerda, J. Gu, "Toward a Perceptually Based Metric for BRDF Modeling", Color and Imaging Conference 2012.
+[3] J. Löw, J. Kronander, A. Ynnerman, J. Unger, "BRDF Models for Accurate and Efficient Rendering of Glossy Surfaces",
+    ACM TOG 31(1), 2012, the metric E2.
+[4] J. B. Nielsen, H. W. Jensen, R. Ramamoorthi, "On Optimal, Minimal BRDF Sampling for Reflectance Acquisition", ACM TOG
+    34(6), 2015, equation 6: ln((f w + e) / (f_ref w + e)); the reference cancels in a difference.
 """
 
 from collections.abc import Callable
@@ -31,7 +38,7 @@ EPSILON = 1e-3
 """Of Nielsen's mapping: keeps the logarithm finite, and a difference between two blacks small."""
 
 Metric = Literal["cosine", "cube-root", "log", "log-relative", "relative"]
-Samples = Float[np.ndarray, "..."]
+Array = Float[np.ndarray, "..."]
 
 
 class Difference(NamedTuple):
@@ -70,47 +77,15 @@ def difference(f: TabularBrdf, g: TabularBrdf, metric: Metric = "log") -> Differ
     return Difference(below, grazing)
 
 
-def cosine_weighted(f: Samples, cos_i: Angle, cos_o: Angle) -> Samples:  # noqa: ARG001 (as all mappings)
-    """``f cos_i``: the radiance that an even light reflects; ruled by highlights.
-
-    A. Ngan, F. Durand, W. Matusik, "Experimental Analysis of BRDF Models", EGSR 2005, section 3.1.
-    """
-    return f * cos_i
-
-
-def cube_root(f: Samples, cos_i: Angle, cos_o: Angle) -> Samples:  # noqa: ARG001
-    """``(f cos_i)^(1/3)``: near to lightness.
-
-    A. Fores, J. Ferwerda, J. Gu, "Toward a Perceptually Based Metric for BRDF Modeling", Color and Imaging
-    Conference 2012.
-    """
-    return np.cbrt(f * cos_i)
-
-
-def log(f: Samples, cos_i: Angle, cos_o: Angle) -> Samples:  # noqa: ARG001
-    """``ln(1 + f cos_i)``: linear where dark, logarithmic in highlights.
-
-    J. Löw, J. Kronander, A. Ynnerman, J. Unger, "BRDF Models for Accurate and Efficient Rendering of Glossy Surfaces",
-    ACM TOG 31(1), 2012, the metric E2.
-    """
-    return np.log1p(f * cos_i)
-
-
-def log_relative(f: Samples, cos_i: Angle, cos_o: Angle) -> Samples:
-    """``ln(f w + .001)`` with ``w = max(cos_i cos_o, .001)``: relative, dark values as much as bright ones.
-
-    J. B. Nielsen, H. W. Jensen, R. Ramamoorthi, "On Optimal, Minimal BRDF Sampling for Reflectance Acquisition", ACM
-    TOG 34(6), 2015, equation 6: ``ln((f w + e) / (f_ref w + e))``; the reference cancels in a difference.
-    """
-    return np.log(f * np.maximum(cos_i * cos_o, EPSILON) + EPSILON)
-
-
-Mapping = Callable[[Samples, Angle, Angle], Samples]
+Mapping = Callable[[Array, Angle, Angle], Array]
+"""Of samples, with the cosines of their directions."""
 MAPPINGS: dict[Metric, Mapping] = {
-    "cosine": cosine_weighted,
-    "cube-root": cube_root,
-    "log": log,
-    "log-relative": log_relative,
+    "cosine": lambda f, cos_i, _: f * cos_i,
+    "cube-root": lambda f, cos_i, _: np.cbrt(f * cos_i),
+    "log": lambda f, cos_i, _: np.log1p(f * cos_i),
+    "log-relative": lambda f, cos_i, cos_o: np.log(
+        f * np.maximum(cos_i * cos_o, EPSILON) + EPSILON
+    ),
 }
 
 

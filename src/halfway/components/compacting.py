@@ -169,7 +169,7 @@ def measured_error(library: Library, compact: Library, *, work: Work = HERE) -> 
     """What a library loses in ``compact``, over the cells that it keeps.
 
     ``mean_relative_error`` is Table I's, the mean over materials and channels of |p_i - q_i| / |p_i - C|; ``log_relative``
-    the root mean square of `halfway.brdf.metrics.log_relative` below grazing angles, by solid angle.
+    the metric of this name (`halfway.brdf.metrics`) below grazing angles, by solid angle.
     """
     compare = partial(_compared, library, compact)
     total = _Compared(np.zeros((3, len(library))), np.zeros((3, len(library))), np.zeros(2))

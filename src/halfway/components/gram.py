@@ -58,7 +58,7 @@ class Gram:
             When no cell is measured in every material.
         """
         n = len(library)
-        total = _sum(library, Part(np.arange(n), 0), work)
+        total = _sum(library, Pass(np.arange(n), 0), work)
         return cls(library.material_checksums, 0, total.products, total.norms, total.n_cells)
 
     def extended(self, library: Streamed, *, work: Work = HERE) -> "Gram":
@@ -79,7 +79,7 @@ class Gram:
             )
         known = np.array([place[checksum] for checksum in self.materials])
         new = np.setdiff1d(np.arange(len(library)), known)
-        total = _sum(library, Part(new, int(known[self.origin])), work)
+        total = _sum(library, Pass(new, int(known[self.origin])), work)
         if (total.n_cells != self.n_cells).any():
             return Gram.of(library, work=work)
         norms = np.empty((library.n_channels, len(library)))
@@ -120,7 +120,7 @@ def unpack(triangle: Float64[np.ndarray, " n_pairs"], n: int) -> Float64[np.ndar
     return symmetric
 
 
-class Part(NamedTuple):
+class Pass(NamedTuple):
     """Which products a pass computes: of the materials ``rows`` with all, or among themselves where that is all."""
 
     rows: Int[np.ndarray, " n_rows"]
@@ -133,27 +133,27 @@ class _Sum(NamedTuple):
     n_cells: Int[np.ndarray, " n_channels"]
 
 
-def _sum(library: Streamed, part: Part, work: Work) -> _Sum:
-    block = partial(gram_block, library, part)
+def _sum(library: Streamed, which: Pass, work: Work) -> _Sum:
+    block = partial(gram_block, library, which)
     return sum_blocks(library, block, label="Gram matrices", work=work)
 
 
-def gram_block(library: Streamed, part: Part, columns: slice) -> _Sum:
+def gram_block(library: Streamed, which: Pass, columns: slice) -> _Sum:
     """The task of a pass: the products on one block."""
-    found = (_channel(samples, part) for samples in library.columns(columns))
+    found = (_channel(samples, which) for samples in library.columns(columns))
     return _Sum(*join_channels(found, library.n_channels))
 
 
-def _channel(samples: np.ndarray, part: Part) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _channel(samples: np.ndarray, which: Pass) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """The products of one channel of a block."""
-    n, rows = len(samples), part.rows
+    n, rows = len(samples), which.rows
     whole = len(rows) == n
     products, norms, n_cells = np.zeros((len(rows), n)), np.zeros(len(rows)), 0
     for u in measured_pieces(samples):
         n_cells += u.shape[1]
         own = u if whole else u[rows]
         norms += np.einsum("ij,ij->i", own, own)
-        u -= u[part.origin].copy()
+        u -= u[which.origin].copy()
         # Of a matrix with its own transpose, numpy has BLAS do half the work.
         products += (u if whole else u[rows]) @ u.T
     return (pack(products) if whole else products.ravel()), norms, np.array(n_cells)

@@ -14,7 +14,7 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from ..library import Library, columns_per_piece
-from .gram import Part, gram_block
+from .gram import Pass, gram_block
 from .pca import MOST_EXACT, N_KEPT
 from .sketch import N_PASSES, OVERSAMPLING, sketch_block
 
@@ -80,7 +80,7 @@ class PcaPlan:
         start = time.perf_counter()
         with threadpool_limits(1, "blas"):
             if self.n_vectors is None:
-                gram_block(library, Part(np.arange(len(library)), 0), block)
+                gram_block(library, Pass(np.arange(len(library)), 0), block)
             else:
                 sketch_block(library, np.ones((3, len(library), self.n_vectors)), block)
         seconds = time.perf_counter() - start

@@ -25,7 +25,7 @@ from .._types import Rows
 from ..brdf import metrics, quadrature
 from ..halfdiff import Grid
 
-Mapping = Literal["log", "linear"]
+MappingName = Literal["log", "linear"]
 Precision = Literal["int8", "float16", "float32"]
 
 
@@ -33,7 +33,7 @@ Precision = Literal["int8", "float16", "float32"]
 class Coding:
     """How the samples of a compact library are stored."""
 
-    mapping: Mapping = "log"
+    mapping: MappingName = "log"
     shared: bool = True
     """Whether the three channels share their components."""
     precision: Precision = "int8"

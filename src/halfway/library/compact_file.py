@@ -37,7 +37,7 @@ from ..files import replacing
 from ..halfdiff import Axis, Grid
 from ..locations import Location
 from ..origin import Origin
-from .coding import Coding, Mapping, Precision
+from .coding import Coding, MappingName, Precision
 from .library import texts
 
 FORMAT = 1
@@ -236,7 +236,7 @@ _DAMAGE = (
 _DTYPES: dict[Precision, str] = {"int8": "i1", "float16": "<f2", "float32": "<f4"}
 _CODINGS = {
     (mapping, shared, precision): Coding(mapping, shared, precision)
-    for mapping in get_args(Mapping)
+    for mapping in get_args(MappingName)
     for shared in (True, False)
     for precision in _DTYPES
 }
