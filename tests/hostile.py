@@ -15,6 +15,7 @@ import numpy as np
 from exr_files import exr
 
 from halfway import Brdf, Grid, TabularBrdf
+from halfway.errors import RenderError
 from halfway.fetch.unpack import unpack
 from halfway.formats import find_brdfs, read_brdf, write_brdf
 from halfway.formats.tensor_file import write_tensor_file
@@ -57,8 +58,8 @@ def subjects(folder: Path) -> dict[str, Subject]:
         "ply": Subject(_PLY, _read_mesh(".ply")),
         "ply-text": Subject(_PLY_TEXT, _read_mesh(".ply")),
         "obj": Subject(_OBJ, _read_mesh(".obj")),
-        "hdr": Subject(_HDR, _read_environment(".hdr")),
-        "exr": Subject(_EXR, _read_environment(".exr")),
+        "hdr": Subject(_HDR, _read_radiance),
+        "exr": Subject(_EXR, _read_exr),
         "library": Subject((path / "library.json").read_bytes(), _library_with("library.json", path)),
         "tables": Subject(tables.read_bytes(), _library_with(tables.name, path)),
         "recipe": Subject(json.dumps(recipe).encode(), _materials("recipe.json")),
@@ -93,17 +94,24 @@ def _read_mesh(suffix: str) -> Callable[[bytes, Path], None]:
     return read
 
 
-def _read_environment(suffix: str) -> Callable[[bytes, Path], None]:
-    def read(content: bytes, folder: Path) -> None:
-        from halfway.render.variant import load_mitsuba
+def _read_radiance(content: bytes, folder: Path) -> None:
+    del folder
+    from halfway.render.radiance import PictureFault, parse_radiance
 
-        load_mitsuba()
-        from halfway.render.environment import read_environment
+    try:
+        assert parse_radiance(content).shape[2] == 3
+    except PictureFault as fault:
+        raise RenderError(f"this picture {fault}") from fault
 
-        (folder / f"spoilt{suffix}").write_bytes(content)
-        assert (read_environment(folder / f"spoilt{suffix}") >= 0).all()
 
-    return read
+def _read_exr(content: bytes, folder: Path) -> None:
+    from halfway.render.variant import load_mitsuba
+
+    load_mitsuba()
+    from halfway.render.environment import read_environment
+
+    (folder / "spoilt.exr").write_bytes(content)
+    assert (read_environment(folder / "spoilt.exr") >= 0).all()
 
 
 def _find(content: bytes, folder: Path) -> None:
