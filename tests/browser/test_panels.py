@@ -26,6 +26,20 @@ DRAWN = """() => {
 }"""
 
 
+COUNT_BUFFERS = """{
+  const { createBuffer, deleteBuffer } = WebGL2RenderingContext.prototype;
+  window.buffers = 0;
+  WebGL2RenderingContext.prototype.createBuffer = function () {
+    window.buffers++;
+    return createBuffer.call(this);
+  };
+  WebGL2RenderingContext.prototype.deleteBuffer = function (buffer) {
+    window.buffers--;
+    deleteBuffer.call(this, buffer);
+  };
+}"""
+
+
 def numbers_at(explorer: Explorer, view: str, x: float, y: float) -> list[str]:
     """What the BRDF panel says under the pointer, at shares of the plot."""
     explorer.page.locator(f".brdf [data-value={view}]").click()
@@ -239,6 +253,28 @@ def test_pictures_come_again_when_the_card_was_lost(explorer: Explorer) -> None:
     # Edges may be smoothed otherwise by a level or two.
     again = pixels(explorer.page.locator(".cloud").screenshot())
     assert np.abs(again - space).max() < 8
+
+
+def test_the_card_holds_no_more_after_a_minute_of_dragging(explorer: Explorer) -> None:
+    explorer.page.set_viewport_size(SMALL)
+    explorer.page.add_init_script(COUNT_BUFFERS)
+    explorer.open("#space=paper&stops=cherry-235,teflon,gold-paint&t=0&light=points")
+    explorer.page.wait_for_selector(".here")
+    before = buffers_after_drag(explorer)
+    assert 0 < buffers_after_drag(explorer) <= before
+
+
+def buffers_after_drag(explorer: Explorer) -> int:
+    """Buffers on the card after t went all the way and the space was turned and shown in another map."""
+    for i in range(25):
+        explorer.set_t(i / 24)
+        # The space is drawn every 60 ms.
+        explorer.page.wait_for_timeout(70)
+    explorer.page.locator(".cloud").press("Alt+ArrowLeft")
+    for shown in ("G", "Looks"):
+        explorer.page.locator(f".maps [data-value={shown}]").click()
+        explorer.page.wait_for_timeout(200)
+    return explorer.page.evaluate("window.buffers")
 
 
 def pixels(png: bytes) -> np.ndarray:

@@ -12,6 +12,8 @@ export interface Context {
   readonly client: Client;
   readonly options: Options;
   readonly store: Store<State>;
+  /** Of all materials, in the library's order. */
+  readonly names: readonly string[];
   readonly actions: Actions;
   readonly thumbnails: Thumbnails;
   readonly tables: Tables;

@@ -2,33 +2,33 @@
 
 type Child = Node | string | null | undefined | false;
 type Listeners = { [K in keyof HTMLElementEventMap as `on${K}`]?: (event: HTMLElementEventMap[K]) => void };
-type Attributes = Record<string, string | number | boolean | undefined | null>;
+// biome-ignore format: a line each would take a page.
+type Attribute =
+  | "accept" | "autocomplete" | "download" | "draggable" | "height" | "hidden" | "href" | "id" | "label" | "max" | "min"
+  | "name" | "placeholder" | "role" | "spellcheck" | "step" | "tabindex" | "title" | "type" | "value" | "width"
+  | `aria-${string}` | `data-${string}`;
+type Properties = Listeners & { [K in Attribute]?: string | number | boolean | null | undefined };
 
-/** `el("button.chip", { title: "..." }, { onclick }, ...children)`; an attribute that is false, null or undefined is left out. */
+/** `el("button.chip", { title: "...", onclick }, ...children)`; what is false, null or undefined is left out. */
 export function el<K extends keyof HTMLElementTagNameMap>(
   selector: K | `${K}.${string}`,
-  attributes: Attributes = {},
-  listeners: Listeners = {},
-  ...children: Child[]
+  ...parts: (Properties | Child)[]
 ): HTMLElementTagNameMap[K] {
   const [tag, ...classes] = selector.split(".");
   const element = document.createElement(tag as K);
   if (classes.length) element.className = classes.join(" ");
-  for (const [key, value] of Object.entries(attributes)) {
-    if (value === undefined || value === null || value === false) continue;
-    element.setAttribute(key, value === true ? "" : String(value));
+  for (const part of parts) {
+    if (part instanceof Node || typeof part === "string") element.append(part);
+    else for (const [key, value] of Object.entries(part || {})) setProperty(element, key, value);
   }
-  for (const [key, listener] of Object.entries(listeners)) {
-    element.addEventListener(key.slice(2), listener as EventListener);
-  }
-  element.append(
-    ...children.filter(
-      (child): child is Node | string => child !== null && child !== undefined && child !== false,
-    ),
-  );
   return element;
 }
 
+function setProperty(element: HTMLElement, key: string, value: unknown): void {
+  if (typeof value === "function") element.addEventListener(key.slice(2), value as EventListener);
+  else if (value !== undefined && value !== null && value !== false)
+    element.setAttribute(key, value === true ? "" : String(value));
+}
 const ICONS = {
   play: "M5 3.5v9l7.5-4.5z",
   pause: "M4.5 3.5h2.5v9H4.5zM9 3.5h2.5v9H9z",
@@ -56,22 +56,36 @@ export function icon(name: Icon): SVGSVGElement {
 }
 
 export function iconButton(name: Icon, label: string, onclick: () => void): HTMLButtonElement {
-  return el("button.icon", { type: "button", title: label, "aria-label": label }, { onclick }, icon(name));
+  return el("button.icon", { type: "button", title: label, "aria-label": label, onclick }, icon(name));
 }
+
+/** What can be chosen: its value, what is written, and a longer text. */
+type Option<T extends string> = readonly [value: T, text?: string | undefined, title?: string];
 
 /** Choices of which exactly one holds. */
 export function segments<T extends string>(
   label: string,
-  options: readonly (readonly [T, string])[],
+  options: readonly Option<T>[],
   choose: (value: T) => void,
 ): { element: HTMLElement; mark: (value: T) => void } {
   const buttons = options.map(([value, text]) =>
-    el("button", { type: "button", "data-value": value }, { onclick: () => choose(value) }, text),
+    el("button", { type: "button", "data-value": value, onclick: () => choose(value) }, text ?? value),
   );
   const mark = (value: T) => {
     for (const button of buttons) button.setAttribute("aria-pressed", String(button.dataset.value === value));
   };
-  return { element: el("div.segments", { role: "group", "aria-label": label }, {}, ...buttons), mark };
+  return { element: el("div.segments", { role: "group", "aria-label": label }, ...buttons), mark };
+}
+
+/** The same as a list that opens. */
+export function dropdown<T extends string>(
+  properties: Properties,
+  options: readonly Option<T>[],
+  choose: (value: T) => void,
+): HTMLSelectElement {
+  const select = el("select.field", { ...properties, onchange: () => choose(select.value as T) });
+  select.append(...options.map(([value, text, title]) => el("option", { value, title }, text ?? value)));
+  return select;
 }
 
 /** Call `draw` with the size in device pixels now and whenever the element changes it. */

@@ -4,18 +4,26 @@
 // option: it looks neither at the address nor at what the browser stores.
 
 import { type Block, type Client, Problem } from "./api/client";
-import type { Axis, LibrarySummary } from "./api/schema";
-import { isDrawable } from "./brdf/grid";
+import type { LibrarySummary } from "./api/schema";
+import { type DrawableGrid, isDrawable } from "./brdf/grid";
 import type { Context, Options } from "./context";
 import { el } from "./dom";
-import { fetchOtherRoutes, fetchPlaces, fetchRoutes, fetchSpaces, keepLink, play } from "./follow";
+import {
+  fetchAtPoint,
+  fetchOtherRoutes,
+  fetchRoutes,
+  fetchSpaces,
+  fetchTables,
+  keepLink,
+  play,
+} from "./follow";
 import { listenToKeys } from "./keys";
 import { brdfPanel } from "./panels/brdf/panel";
 import { head } from "./panels/head";
-import { materialView } from "./panels/materialView";
-import { recipePanel } from "./panels/recipePanel";
-import { routePanel } from "./panels/routePanel";
-import { spaceView } from "./panels/spaceView";
+import { materialPanel } from "./panels/material/panel";
+import { recipePanel } from "./panels/recipe/panel";
+import { routePanel } from "./panels/route/panel";
+import { spacePanel } from "./panels/space/panel";
 import { fromHash } from "./permalink";
 import { Tables } from "./render/tables";
 import { Actions, createState, type State } from "./state";
@@ -57,48 +65,28 @@ function show(
   thumbnails: Block,
   environment: Block,
 ): Mounted {
-  if (!isDrawable(library.grid)) {
-    throw new Problem(
-      `${library.name} has a grid over ${library.grid.map(({ angle }) => angle).join(", ")}: the explorer draws theta_h, theta_d, phi_d.`,
-    );
-  }
   const linked = { ...fromHash(options.fragment ?? "", library), ...options.linked };
   const store = createState(library, linked, options.theme ?? "auto");
+  const names = library.materials.map(({ name }) => name);
   const gone = new AbortController();
   const context: Context = {
     root,
     client,
     options,
     store,
+    names,
     actions: new Actions(store),
-    thumbnails: new Thumbnails(
-      library.materials.map(({ name }) => name),
-      thumbnails,
-    ),
-    tables: new Tables(client, library.grid as unknown as readonly [Axis, Axis, Axis]),
+    thumbnails: new Thumbnails(names, thumbnails),
+    tables: new Tables(client, drawable(library)),
     environment,
     signal: gone.signal,
   };
   applyTheme(context);
+  const side = el("div.side", recipePanel(context), brdfPanel(context));
   root.replaceChildren(
-    el(
-      "div.layout",
-      {},
-      {},
-      head(context),
-      spaceView(context),
-      materialView(context),
-      routePanel(context),
-      el("div.side", {}, {}, recipePanel(context), brdfPanel(context)),
-    ),
+    el("div.layout", head(context), spacePanel(context), materialPanel(context), routePanel(context), side),
   );
-  fetchRoutes(context);
-  fetchOtherRoutes(context);
-  fetchPlaces(context);
-  fetchSpaces(context);
-  keepLink(context);
-  play(context);
-  listenToKeys(context);
+  for (const follow of FOLLOWERS) follow(context);
   root.classList.add("ready");
   const unmount = () => {
     gone.abort();
@@ -106,6 +94,16 @@ function show(
     root.classList.remove("ready");
   };
   return { store, actions: context.actions, unmount };
+}
+
+// biome-ignore format: it is one list.
+const FOLLOWERS = [fetchRoutes, fetchOtherRoutes, fetchAtPoint, fetchSpaces, fetchTables, keepLink, play, listenToKeys];
+
+/** The grid of a library, if the page can draw it. */
+function drawable({ name, grid }: LibrarySummary): DrawableGrid {
+  if (isDrawable(grid)) return grid;
+  const angles = grid.map(({ angle }) => angle).join(", ");
+  throw new Problem(`${name} has a grid over ${angles}: the explorer draws theta_h, theta_d, phi_d.`);
 }
 
 function applyTheme({ root, store, options, signal }: Context): void {
@@ -118,13 +116,10 @@ function applyTheme({ root, store, options, signal }: Context): void {
     store.set({ scheme });
   };
   system.addEventListener("change", apply, { signal });
-  store.watch(({ theme }) => theme, apply);
   let last = store.get().theme;
-  store.watch(
-    ({ theme }) => theme,
-    (theme) => {
-      if (theme !== last) options.onTheme?.(theme);
-      last = theme;
-    },
-  );
+  store.watch(["theme"], ({ theme }) => {
+    apply();
+    if (theme !== last) options.onTheme?.(theme);
+    last = theme;
+  });
 }

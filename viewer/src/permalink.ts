@@ -1,12 +1,13 @@
-// What the page shows, in the part of the address after #: a link, or a reload, comes back to the same place.
+// What the page shows, in the part of the address after #: a link, or a reload, comes back to the same view.
 
 import type { LibrarySummary } from "./api/schema";
-import { LIGHTS } from "./render/environments";
-import type { Linked } from "./state";
+import { clamp } from "./numbers";
+import { EXPOSURES, HOME, LIGHTS, type Orbit, zoomed } from "./scene";
+import { asCompared, type Linked } from "./state";
 
 export function toHash(linked: Linked): string {
   const { azimuth, elevation, zoom } = linked.orbit;
-  const fields: Record<string, string> = {
+  const fields: Record<keyof Linked, string> = {
     space: linked.space,
     pace: linked.pace,
     stops: linked.stops.join(","),
@@ -28,47 +29,37 @@ export function toHash(linked: Linked): string {
 /** The fields that make sense for this library; the others are left out. */
 export function fromHash(hash: string, library: LibrarySummary): Partial<Linked> {
   const fields = new URLSearchParams(hash.replace(/^#/, ""));
-  const oneOf = <T extends string>(key: string, options: readonly T[]) =>
-    options.find((o) => o === fields.get(key));
-  const number = (key: string, from: number, to: number) => {
+  const list = (key: keyof Linked) => (fields.get(key) ?? "").split(",").filter(Boolean);
+  const oneOf = <T extends string>(key: keyof Linked, options: readonly T[]) =>
+    options.find((option) => option === fields.get(key));
+  const number = (key: keyof Linked, from: number, to: number) => {
     const value = Number.parseFloat(fields.get(key) ?? "");
-    return Number.isFinite(value) ? Math.min(Math.max(value, from), to) : undefined;
+    return Number.isFinite(value) ? clamp(value, from, to) : undefined;
   };
-  const names = new Set(library.materials.map(({ name }) => name));
-  const stops = (fields.get("stops") ?? "").split(",").filter((name) => names.has(name));
+  const materials = library.materials.map(({ name }) => name);
+  const spaces = library.spaces.map(({ name }) => name);
+  const stops = list("stops").filter((name) => materials.includes(name));
   const distinct = stops.filter((name, i) => name !== stops[i - 1]);
-  const orbit = (fields.get("orbit") ?? "").split(",").map(Number.parseFloat);
-  const point = (fields.get("point") ?? "").split(",").filter(Boolean).map(Number.parseFloat);
-  const [azimuth, elevation, zoom] = orbit;
-  return defined({
-    space: oneOf(
-      "space",
-      library.spaces.map(({ name }) => name),
-    ),
+  const point = list("point").map(Number.parseFloat);
+  const sensible = {
+    space: oneOf("space", spaces),
     pace: oneOf("pace", library.paces),
     stops: distinct.length >= 2 ? distinct : undefined,
     t: number("t", 0, 1),
     point: point.length && point.every(Number.isFinite) ? point : undefined,
-    compare: oneOf("compare", [
-      ...library.spaces.map(({ name }) => name),
-      ...library.materials.map(({ name }) => `stop:${name}`),
-    ]),
-    shape: oneOf("shape", ["sphere", "teapot"] as const),
+    compare: oneOf("compare", [...spaces, ...materials.map(asCompared)]),
+    shape: oneOf("shape", ["sphere", "teapot"]),
     light: oneOf("light", LIGHTS),
-    exposure: number("exposure", -4, 4),
-    orbit:
-      orbit.length === 3 && orbit.every(Number.isFinite)
-        ? { azimuth: azimuth!, elevation: elevation!, zoom: Math.min(Math.max(zoom!, 0.3), 4) }
-        : undefined,
-  });
+    exposure: number("exposure", ...EXPOSURES),
+    orbit: toOrbit(list("orbit").map(Number.parseFloat)),
+  };
+  return Object.fromEntries(Object.entries(sensible).filter(([, value]) => value !== undefined));
 }
 
-type Optional<T> = { [K in keyof T]?: T[K] | undefined };
-
-function defined(fields: Optional<Linked>): Partial<Linked> {
-  return Object.fromEntries(
-    Object.entries(fields).filter(([, value]) => value !== undefined),
-  ) as Partial<Linked>;
+function toOrbit(numbers: readonly number[]): Orbit | undefined {
+  const [azimuth, elevation, zoom] = numbers;
+  if (numbers.length !== 3 || !numbers.every(Number.isFinite)) return undefined;
+  return zoomed({ azimuth: azimuth!, elevation: elevation!, zoom: HOME.zoom }, zoom!);
 }
 
 function short(x: number, digits: number): string {

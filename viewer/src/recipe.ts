@@ -42,6 +42,28 @@ export function toDocument(library: string, recipe: readonly Ingredient[]): Reci
   return { library, weights: same ? r! : { r: r!, g: g!, b: b! } };
 }
 
+export function fromDocument({ weights }: RecipeDocument): Ingredient[] {
+  const channels = CHANNELS.map((channel) => {
+    const own = (weights as Record<string, unknown>)[channel];
+    return (typeof own === "object" ? own : weights) as Readonly<Record<string, number>>;
+  });
+  const names = [...new Set(channels.flatMap((channel) => Object.keys(channel)))];
+  return names.map((name) => {
+    const [r = 0, g = 0, b = 0] = channels.map((channel) => channel[name] ?? 0);
+    return { name, weight: [r, g, b] };
+  });
+}
+
+/** The materials of recipes, each once. */
+export function namesIn(...recipes: readonly (readonly Ingredient[])[]): string[] {
+  return [...new Set(recipes.flat().map(({ name }) => name))];
+}
+
+/** One material alone. */
+export function only(name: string): Ingredient[] {
+  return [{ name, weight: [1, 1, 1] }];
+}
+
 /** The weight in one channel, or the mean of all. */
 export function weightIn(ingredient: Ingredient, channel: (typeof CHANNELS)[number] | "all"): number {
   return channel === "all" ? meanWeight(ingredient) : ingredient.weight[CHANNELS.indexOf(channel)]!;

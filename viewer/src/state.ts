@@ -1,17 +1,14 @@
 // What the page shows, and the acts that change it.
 
-import type { BufferGeometry } from "three";
-
 import type { LibrarySummary, PlaceView, RouteView, SpaceView } from "./api/schema";
-import { fromDocument } from "./place";
-import { type Ingredient, recipeAt } from "./recipe";
-import type { Light } from "./render/environments";
-import { HOME, type Orbit, type Shape } from "./render/stage";
+import { clamp } from "./numbers";
+import { fromDocument, type Ingredient, only, recipeAt } from "./recipe";
+import { HOME, type View } from "./scene";
 import { createStore, type Store } from "./store";
 
 export type Theme = "auto" | "light" | "dark";
 
-export interface State {
+export interface State extends View {
   readonly library: LibrarySummary;
   readonly space: string;
   readonly pace: string;
@@ -22,26 +19,21 @@ export interface State {
   /** The stop that t goes to when the route has come; null for none. */
   readonly goal: number | null;
   readonly playing: boolean;
-  readonly shape: Shape;
-  /** A person's own object, and its file's name. */
-  readonly mesh: { readonly name: string; readonly geometry: BufferGeometry } | null;
-  readonly light: Light;
   readonly exposure: number;
-  readonly orbit: Orbit;
   readonly theme: Theme;
   /** What the theme comes to here and now. */
   readonly scheme: "light" | "dark";
   /** The material under the pointer, anywhere on the page. */
   readonly hovered: string | null;
   /** Materials whose names match what is searched; null when nothing is. */
-  readonly found: readonly string[] | null;
+  readonly matches: readonly string[] | null;
   readonly view: SpaceView | null;
   readonly route: RouteView | null;
   readonly recipe: readonly Ingredient[];
-  /** A free place of the space, instead of one on the route; null on the route. */
+  /** A free point of the space, instead of one on the route; null on the route. */
   readonly point: readonly number[] | null;
   /** What the server says of it. */
-  readonly place: PlaceView | null;
+  readonly atPoint: PlaceView | null;
   /** What is shown beside: "" nothing, `stop:NAME` a material, else a space, whose way through the same stops it is. */
   readonly compare: string;
   readonly otherRoute: RouteView | null;
@@ -51,24 +43,22 @@ export interface State {
   /** How many tables have come: who draws from them watches it. */
   readonly arrived: number;
   readonly problem: string | null;
-  readonly past: readonly Way[];
-  readonly future: readonly Way[];
+  readonly past: readonly Whereabouts[];
+  readonly future: readonly Whereabouts[];
 }
 
-/** What undo goes back to. */
-export type Way = Pick<State, "space" | "pace" | "stops" | "point">;
+/** Where a person is in the library's spaces, but for t: what undo goes back to. */
+export type Whereabouts = Pick<State, "space" | "pace" | "stops" | "point">;
 
 /** What a link carries. */
-export type Linked = Pick<
-  State,
-  "space" | "pace" | "stops" | "t" | "point" | "compare" | "shape" | "light" | "exposure" | "orbit"
->;
+// biome-ignore format: it is one list.
+export const LINKED = ["space", "pace", "stops", "t", "point", "compare", "shape", "light", "exposure", "orbit"] as const;
+export type Linked = Pick<State, (typeof LINKED)[number]>;
 
 const MAX_PAST = 100;
-/** Moves of a free place that follow each other so soon, in milliseconds, are one act. */
+/** Moves of a free point that follow each other so soon, in milliseconds, are one act. */
 const ONE_ACT = 700;
 const STOP = "stop:";
-export const EXPOSURES = [-4, 4] as const;
 
 export function createState(library: LibrarySummary, linked: Partial<Linked>, theme: Theme): Store<State> {
   const stops = linked.stops ?? defaultStops(library);
@@ -92,11 +82,11 @@ export function createState(library: LibrarySummary, linked: Partial<Linked>, th
     theme,
     scheme: "dark",
     hovered: null,
-    found: null,
+    matches: null,
     view: null,
     route: null,
     recipe: [],
-    place: null,
+    atPoint: null,
     otherRoute: null,
     otherRecipe: [],
     split: 0.5,
@@ -112,6 +102,16 @@ export function comparedStop(compare: string): string | null {
   return compare.startsWith(STOP) ? compare.slice(STOP.length) : null;
 }
 
+/** The space that is compared with; null when it is a material, or nothing. */
+export function comparedSpace(compare: string): string | null {
+  return compare === "" || compare.startsWith(STOP) ? null : compare;
+}
+
+/** What a material is called where it is compared with. */
+export function asCompared(material: string): string {
+  return STOP + material;
+}
+
 export class Actions {
   private lastMove = Number.NEGATIVE_INFINITY;
 
@@ -120,25 +120,24 @@ export class Actions {
   setT = (t: number): void => {
     const { route, otherRoute, point } = this.store.get();
     if (point !== null) this.remember();
-    const clamped = Math.min(Math.max(t, 0), 1);
+    const clamped = clamp(t, 0, 1);
     this.store.set({
       t: clamped,
       point: null,
-      place: null,
+      atPoint: null,
       ...(route && { recipe: recipeAt(route, clamped) }),
       ...(otherRoute && { otherRecipe: recipeAt(otherRoute, clamped) }),
     });
   };
 
   setRoute = (route: RouteView): void => {
-    const { goal, place } = this.store.get();
+    const { goal, atPoint, recipe } = this.store.get();
     // At perceptual pace the server says where the stops are.
     const t = (goal === null ? undefined : route.stop_t[goal]) ?? this.store.get().t;
-    const recipe = place === null ? recipeAt(route, t) : this.store.get().recipe;
-    this.store.set({ route, t, goal: null, recipe, problem: null });
+    this.store.set({ route, t, goal: null, recipe: atPoint ? recipe : recipeAt(route, t), problem: null });
   };
 
-  /** Leave the route for a place of the space. */
+  /** Leave the route for a point of the space. */
   goTo = (point: readonly number[]): void => {
     const now = performance.now();
     if (now - this.lastMove > ONE_ACT) this.remember();
@@ -146,15 +145,14 @@ export class Actions {
     this.store.set({ point, playing: false });
   };
 
-  compareWith = (compare: string): void => {
-    const stop = comparedStop(compare);
-    const otherRecipe: Ingredient[] = stop === null ? [] : [{ name: stop, weight: [1, 1, 1] }];
-    this.store.set({ compare, otherRoute: null, otherRecipe });
+  setAtPoint = (atPoint: PlaceView): void => {
+    if (this.store.get().point !== null)
+      this.store.set({ atPoint, recipe: fromDocument(atPoint.recipe), problem: null });
   };
 
-  setPlace = (place: PlaceView): void => {
-    if (this.store.get().point !== null)
-      this.store.set({ place, recipe: fromDocument(place.recipe), problem: null });
+  compareWith = (compare: string): void => {
+    const stop = comparedStop(compare);
+    this.store.set({ compare, otherRoute: null, otherRecipe: stop === null ? [] : only(stop) });
   };
 
   setOtherRoute = (otherRoute: RouteView): void => {
@@ -164,9 +162,8 @@ export class Actions {
   /** Put a material where the chosen slot is, and choose the other end next. */
   choose = (name: string): void => {
     const { stops, slot } = this.store.get();
-    if (stops[slot - 1] === name || stops[slot + 1] === name || stops[slot] === name) return;
-    const next = [...stops.slice(0, slot), name, ...stops.slice(slot + 1)];
-    this.go({ stops: next });
+    if ([slot - 1, slot, slot + 1].some((i) => stops[i] === name)) return;
+    this.go({ stops: stops.toSpliced(slot, 1, name) });
     this.store.set({ goal: slot });
   };
 
@@ -180,7 +177,7 @@ export class Actions {
     const { stops } = this.store.get();
     if (stops.length <= 2) return;
     // Two equal neighbours that meet become one.
-    const next = stops.filter((_, j) => j !== i).filter((name, j, all) => name !== all[j - 1]);
+    const next = stops.toSpliced(i, 1).filter((name, j, all) => name !== all[j - 1]);
     if (next.length >= 2) this.go({ stops: next });
   };
 
@@ -194,18 +191,15 @@ export class Actions {
     this.store.set({ slot: to });
   };
 
-  setSpace = (space: string): void => this.go({ space });
-
-  setPace = (pace: string): void => this.go({ pace });
-
-  /** Another way; what is not said of it stays. */
-  go = (change: Partial<Way>): void => {
-    const { past, slot } = this.store.get();
-    const way = { ...this.way(), point: null, ...change };
-    this.follow(way, [...past.slice(1 - MAX_PAST), this.way()], [], Math.min(slot, way.stops.length - 1));
+  /** To another space, route or point; what is not said stays, but for a free point. */
+  go = (change: Partial<Whereabouts>): void => {
+    const { slot } = this.store.get();
+    const next = { ...this.whereabouts(), point: null, ...change };
+    this.remember();
+    this.follow(next, Math.min(slot, next.stops.length - 1));
   };
 
-  /** Go where a link leads; what it does not say stays, but for a free place. */
+  /** Go where a link leads; what it does not say stays, but for a free point. */
   visit = (linked: Partial<Linked>): void => {
     const { space, pace, stops, point } = { ...this.store.get(), point: null, ...linked };
     this.go({ space, pace, stops, point });
@@ -215,29 +209,34 @@ export class Actions {
 
   undo = (): void => {
     const { past, future } = this.store.get();
-    const way = past.at(-1);
-    if (way) this.follow(way, past.slice(0, -1), [this.way(), ...future], way.stops.length - 1);
+    const last = past.at(-1);
+    if (last === undefined) return;
+    this.store.set({ past: past.slice(0, -1), future: [this.whereabouts(), ...future] });
+    this.follow(last, last.stops.length - 1);
   };
 
   redo = (): void => {
-    const { past, future } = this.store.get();
-    const [way, ...rest] = future;
-    if (way) this.follow(way, [...past, this.way()], rest, way.stops.length - 1);
+    const [next, ...future] = this.store.get().future;
+    if (next === undefined) return;
+    this.remember();
+    this.store.set({ future });
+    this.follow(next, next.stops.length - 1);
   };
 
-  private follow(way: Way, past: readonly Way[], future: readonly Way[], slot: number): void {
+  private follow(next: Whereabouts, slot: number): void {
     const { route, t } = this.store.get();
     this.lastMove = Number.NEGATIVE_INFINITY;
     // Back on the same route, its recipe holds; on another one it comes with the answer.
-    const recipe = way.point === null && route ? { recipe: recipeAt(route, t) } : {};
-    this.store.set({ ...way, past, future, slot, place: null, ...recipe });
+    const recipe = next.point === null && route ? { recipe: recipeAt(route, t) } : {};
+    this.store.set({ ...next, slot, atPoint: null, ...recipe });
   }
 
+  /** The present whereabouts are one undo away; nothing is ahead of them. */
   private remember(): void {
-    this.store.set({ past: [...this.store.get().past.slice(1 - MAX_PAST), this.way()], future: [] });
+    this.store.set({ past: [...this.store.get().past.slice(1 - MAX_PAST), this.whereabouts()], future: [] });
   }
 
-  private way(): Way {
+  private whereabouts(): Whereabouts {
     const { space, pace, stops, point } = this.store.get();
     return { space, pace, stops, point };
   }

@@ -1,11 +1,11 @@
-// A store: one value, replaced whole; listeners hear of the parts they chose.
+// A store: one value, replaced whole; listeners hear of the fields they named.
 
 export interface Store<T> {
   readonly get: () => T;
   /** Replace some fields; listeners run once, afterwards. */
   readonly set: (change: Partial<T>) => void;
-  /** Run `listener` now and whenever what `select` gives changes. */
-  readonly watch: <S>(select: (state: T) => S, listener: (selected: S) => void) => void;
+  /** Run `listener` now and whenever one of these fields is another. */
+  readonly watch: (fields: readonly (keyof T)[], listener: (state: T) => void) => void;
 }
 
 export function createStore<T extends object>(initial: T): Store<T> {
@@ -17,22 +17,14 @@ export function createStore<T extends object>(initial: T): Store<T> {
       state = { ...state, ...change };
       for (const watcher of watchers) watcher();
     },
-    watch: (select, listener) => {
-      let last = select(state);
+    watch: (fields, listener) => {
+      let last = state;
       watchers.push(() => {
-        const next = select(state);
-        if (same(last, next)) return;
-        last = next;
-        listener(next);
+        const before = last;
+        last = state;
+        if (fields.some((field) => !Object.is(before[field], state[field]))) listener(state);
       });
-      listener(last);
+      listener(state);
     },
   };
-}
-
-/** Equal, or arrays of equal things: a selector may give several parts at once. */
-function same(a: unknown, b: unknown): boolean {
-  if (Array.isArray(a) && Array.isArray(b))
-    return a.length === b.length && a.every((x, i) => Object.is(x, b[i]));
-  return Object.is(a, b);
 }

@@ -1,7 +1,22 @@
-// Which tables a route needs, those nearest to t first.
+// Which materials' tables are needed, and which come next, those nearest to t first.
 
 import type { RouteView } from "./api/schema";
-import { CHANNELS } from "./recipe";
+import { CHANNELS, namesIn } from "./recipe";
+import type { State } from "./state";
+
+/** What is shown; before the route has come, the stops beside t: a good guess. */
+export function shownNames({ recipe, otherRecipe, stops, t }: State): string[] {
+  if (recipe.length > 0) return namesIn(recipe, otherRecipe);
+  const leg = Math.min(Math.floor(t * (stops.length - 1)), stops.length - 2);
+  return stops.slice(leg, leg + 2);
+}
+
+/** What the slider meets next, on both routes by turns. */
+export function comingUp({ route, otherRoute, t }: State): string[] {
+  const own = route ? nearestFirst(route, t) : [];
+  const other = otherRoute ? nearestFirst(otherRoute, t) : [];
+  return [...new Set(own.flatMap((name, i) => [name, other[i] ?? name]).concat(other))];
+}
 
 /** All materials of the route, by the distance from t to where they carry weight. */
 export function nearestFirst(route: RouteView, t: number): string[] {

@@ -1,23 +1,24 @@
-// The explorer in a notebook: the module that anywidget loads. Its model's traits are the place: see halfway.notebook.Explorer.
+// The explorer in a notebook: the module that anywidget loads. Its model's traits are where the person is: see
+// halfway.notebook.Explorer.
 
 import { Problem } from "./api/client";
 import { kernel, type Messenger } from "./api/kernel";
 import { type Mounted, mount } from "./mount";
-import type { State, Way } from "./state";
+import type { State } from "./state";
 
 /** What the page and Python both hold. */
-type Place = Way & Pick<State, "t">;
+const TRAITS = ["space", "pace", "stops", "point", "t"] as const;
+type Shared = Pick<State, (typeof TRAITS)[number]>;
 
 /** The part of anywidget's model that we use. */
 interface Model extends Messenger {
-  get<K extends keyof Place>(name: K): Place[K];
-  set<K extends keyof Place>(name: K, value: Place[K]): void;
+  get<K extends keyof Shared>(name: K): Shared[K];
+  set<K extends keyof Shared>(name: K, value: Shared[K]): void;
   save_changes(): void;
   on(event: string, listener: (...parts: never[]) => void): void;
   off(event: string, listener: (...parts: never[]) => void): void;
 }
 
-const TRAITS = ["space", "pace", "stops", "point", "t"] as const;
 /** Milliseconds between two messages to Python while something moves. */
 const PATIENCE = 50;
 
@@ -27,16 +28,15 @@ async function render({ model, el }: { model: Model; el: HTMLElement }): Promise
   root.dataset.lmSuppressShortcuts = "true";
   root.tabIndex = -1;
   el.append(root);
-  const { body } = document;
-  const theme = body.dataset.jpThemeLight;
+  const theme = document.body.dataset.jpThemeLight;
   try {
     const mounted = await mount(root, kernel(model), {
-      linked: placeOf(model),
+      linked: inPython(model),
       theme: theme === undefined ? "auto" : theme === "true" ? "light" : "dark",
     });
-    const stop = tie(model, mounted);
+    const untie = tie(model, mounted);
     return () => {
-      stop();
+      untie();
       mounted.unmount();
     };
   } catch (error) {
@@ -46,33 +46,25 @@ async function render({ model, el }: { model: Model; el: HTMLElement }): Promise
   }
 }
 
-/** Keep the page and Python in the same place. */
+/** Keep the page and Python at one point of one route. */
 function tie(model: Model, { store, actions }: Mounted): () => void {
   let timer: ReturnType<typeof setTimeout> | undefined;
   const tell = () => {
     timer = undefined;
     const state = store.get();
-    let changed = false;
-    for (const name of TRAITS) {
-      if (same(model.get(name), state[name])) continue;
-      model.set(name, state[name]);
-      changed = true;
-    }
-    if (changed) model.save_changes();
+    const changed = TRAITS.filter((name) => !same(model.get(name), state[name]));
+    for (const name of changed) model.set(name, state[name]);
+    if (changed.length) model.save_changes();
   };
-  store.watch(
-    ({ space, pace, stops, point, t }) => [space, pace, stops, point, t] as const,
-    () => {
-      timer ??= setTimeout(tell, PATIENCE);
-    },
-  );
+  store.watch(TRAITS, () => {
+    timer ??= setTimeout(tell, PATIENCE);
+  });
   const follow = () => {
-    const place = placeOf(model);
     const state = store.get();
-    const { t, ...way } = place;
-    if (TRAITS.some((name) => name !== "t" && !same(way[name], state[name]))) actions.go(way);
-    // Moving t would leave a free place.
-    if (way.point === null && t !== state.t) actions.setT(t);
+    const { t, ...whereabouts } = inPython(model);
+    if (TRAITS.some((name) => name !== "t" && !same(whereabouts[name], state[name]))) actions.go(whereabouts);
+    // Moving t would leave a free point.
+    if (whereabouts.point === null && t !== state.t) actions.setT(t);
   };
   for (const name of TRAITS) model.on(`change:${name}`, follow);
   return () => {
@@ -81,9 +73,8 @@ function tie(model: Model, { store, actions }: Mounted): () => void {
   };
 }
 
-function placeOf(model: Model): Place {
-  const get = <K extends keyof Place>(name: K) => model.get(name);
-  return { space: get("space"), pace: get("pace"), stops: get("stops"), point: get("point"), t: get("t") };
+function inPython(model: Model): Shared {
+  return Object.fromEntries(TRAITS.map((name) => [name, model.get(name)])) as unknown as Shared;
 }
 
 function same(a: unknown, b: unknown): boolean {

@@ -50,7 +50,7 @@ test("a block is read where it stands in a shared buffer", async () => {
 
 test("a mistake is Python's own line", async () => {
   const { client, sent, answer } = fake();
-  const place = client.place("linear", [0], new AbortController().signal);
+  const place = client.at("linear", [0], new AbortController().signal);
   expect(sent[0]!.body).toBe('{"space":"linear","point":[0]}');
   answer(sent[0]!.id, 400, text({ error: "the space has no places." }));
   await expect(place).rejects.toEqual(new Problem("the space has no places."));

@@ -1,26 +1,26 @@
 import { expect, test } from "vitest";
-import { labelPlaces } from "../src/panels/labels";
+import { labelPositions } from "../src/panels/space/labels";
 
 const at = (x: number, y: number) => ({ x, y, gap: 10 });
 
 test("a name stands beside its point, towards the middle", () => {
-  expect(labelPlaces([at(100, 50), at(900, 50)], 1000)).toEqual([
+  expect(labelPositions([at(100, 50), at(900, 50)], 1000)).toEqual([
     { x: 110, y: 50, side: "right" },
     { x: 890, y: 50, side: "left" },
   ]);
 });
 
 test("a name that is in the way is gone below", () => {
-  const [first, second] = labelPlaces([at(100, 50), at(120, 55)], 1000);
+  const [first, second] = labelPositions([at(100, 50), at(120, 55)], 1000);
   expect(first!.y).toBe(50);
   expect(second!.y).toBeGreaterThanOrEqual(73);
 });
 
 test("names on two sides of the turn meet in the middle", () => {
   // From 520 to 670, and from 520 to 670 again.
-  const [, second] = labelPlaces([at(510, 50), at(680, 50)], 1000);
+  const [, second] = labelPositions([at(510, 50), at(680, 50)], 1000);
   expect(second!.y).toBeGreaterThanOrEqual(73);
   // The points are near, their names are not.
-  const [, apart] = labelPlaces([at(615, 50), at(625, 50)], 1000);
+  const [, apart] = labelPositions([at(615, 50), at(625, 50)], 1000);
   expect(apart!.y).toBe(50);
 });

@@ -72,7 +72,7 @@ test("tables are wanted in the order in which t meets them", () => {
   expect(names.slice(0, 4)).toContain("material-0");
 });
 
-test("a link comes back to the same place", () => {
+test("a link comes back to the same view", () => {
   const linked = {
     space: "linear",
     pace: "uniform",
@@ -114,7 +114,7 @@ test("what a link says that makes no sense is left out", () => {
   expect(fromHash(hash, LIBRARY)).toEqual({ light: "points", exposure: 4 });
 });
 
-test("a chosen material takes the selected place, and t goes where the route has it", () => {
+test("a chosen material takes the selected slot, and t goes where the route has it", () => {
   const { store, actions } = page(["a", "b", "d"]);
   const { route } = golden<{ route: RouteView }>("recipe");
   actions.selectSlot(1);
@@ -140,7 +140,7 @@ test("undo and redo go back and forth", () => {
   const { store, actions } = page();
   actions.selectSlot(2);
   actions.choose("c");
-  actions.setSpace("linear");
+  actions.go({ space: "linear" });
   actions.undo();
   expect(store.get().space).toBe("paper");
   actions.undo();
@@ -160,13 +160,13 @@ test("stops change their order", () => {
   expect(store.get().stops).toEqual(["c", "a", "b"]);
 });
 
-test("a free place is one act, which undo takes back and redo brings again", () => {
+test("a free point is one act, which undo takes back and redo brings again", () => {
   const { store, actions } = page();
   const { route } = golden<{ route: RouteView }>("recipe");
   actions.setRoute(route);
   const onRoute = store.get().recipe;
   for (const x of [0.1, 0.2, 0.3]) actions.goTo([x]);
-  actions.setPlace({ recipe: { library: "small", weights: { d: 1 } }, point: [0.3], inside: true });
+  actions.setAtPoint({ recipe: { library: "small", weights: { d: 1 } }, point: [0.3], inside: true });
   expect(store.get().recipe).toEqual([{ name: "d", weight: [1, 1, 1] }]);
   actions.undo();
   expect(store.get().point).toBeNull();
@@ -189,13 +189,25 @@ test("a stop is compared with as it is, whatever t", () => {
   expect(fromHash("#compare=stop:zz", LIBRARY)).toEqual({});
 });
 
-test("a listener hears only of what it chose", () => {
-  const store = createStore({ a: 1, b: 1 });
+test("a listener hears of the fields that it named, and of no others", () => {
+  const store = createStore({ a: 1, b: 1, c: 1 });
   const heard = vi.fn();
-  store.watch(({ a, b }) => [a, b > 1] as const, heard);
-  store.set({ b: 0 });
+  store.watch(["a", "b"], heard);
+  store.set({ c: 0, b: 1 });
   expect(heard).toHaveBeenCalledTimes(1);
-  store.set({ a: 2 });
+  store.set({ a: 2, b: 3 });
   expect(heard).toHaveBeenCalledTimes(2);
-  expect(heard).toHaveBeenLastCalledWith([2, false]);
+  expect(heard).toHaveBeenLastCalledWith({ a: 2, b: 3, c: 0 });
+});
+
+test("a listener that sets a field hears once of each change", () => {
+  const store = createStore({ a: 1, b: 1 });
+  const heard: unknown[] = [];
+  store.watch(["a"], ({ a }) => store.set({ b: 10 * a }));
+  store.watch(["a", "b"], (state) => heard.push(state));
+  store.set({ a: 2 });
+  expect(heard).toEqual([
+    { a: 1, b: 10 },
+    { a: 2, b: 20 },
+  ]);
 });

@@ -22,7 +22,8 @@ export interface Client {
     stops: readonly string[],
     signal: AbortSignal,
   ) => Promise<RouteView>;
-  readonly place: (space: string, point: readonly number[], signal: AbortSignal) => Promise<PlaceView>;
+  /** The material at a point of a space. */
+  readonly at: (space: string, point: readonly number[], signal: AbortSignal) => Promise<PlaceView>;
   readonly thumbnails: () => Promise<Block>;
   readonly environment: () => Promise<Block>;
   /** One material's table; `onProgress` is told the share that has come, in [0, 1]. */

@@ -1,7 +1,7 @@
 // A folder of files that any static host serves (halfway.server.static), instead of a server: routes are joined and places found
 // in the page.
 
-import { pointOf } from "../place";
+import { pointOf } from "../coordinates";
 import { type Ingredient, toDocument } from "../recipe";
 import { join, reversed } from "../space/legs";
 import { nearest, weightsAt } from "../space/triangulation";
@@ -37,8 +37,7 @@ export function files(base: string): Client {
       const { library } = await folder;
       return join({ library: library.name, space: name, pace, stops, names: all }, await Promise.all(legs));
     },
-    place: async (name, point) =>
-      placed(await space(name), (await folder).library.name, await names(), point),
+    at: async (name, point) => placed(await space(name), (await folder).library.name, await names(), point),
     thumbnails: async () => block(`${base}thumbnails.bin`, (await folder).thumbnails),
     environment: async () => block(`${base}environment.bin`, (await folder).environment),
     table: async (name, onProgress) => {

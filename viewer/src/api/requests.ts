@@ -34,7 +34,7 @@ export function clientOver(ask: Ask): Client {
       for (const stop of stops) query.append("stop", stop);
       return json(await get(`api/route?${query}`, signal));
     },
-    place: async (space, point, signal) => json(await post("api/place", { space, point }, signal)),
+    at: async (space, point, signal) => json(await post("api/place", { space, point }, signal)),
     thumbnails: async () => block(await get("api/thumbnails")),
     environment: async () => block(await get("api/environment")),
     table: async (name, onProgress = () => {}) =>

@@ -3,11 +3,12 @@
 // Hardware filtering is centred at (i + 1/2) / n too, so position / n is the texture coordinate as it is.
 
 import type { Axis } from "../api/schema";
+import { clamp } from "../numbers";
 
 export function toPosition(axis: Axis, angle: number): number {
   const share = angle / axis.stop;
   if (axis.periodic) return ((axis.size * (share - Math.floor(share))) % axis.size) + 0;
-  const inside = Math.min(Math.max(share, 0), 1);
+  const inside = clamp(share, 0, 1);
   return axis.size * (axis.power === 1 ? inside : inside ** (1 / axis.power));
 }
 
@@ -27,7 +28,10 @@ export function neighbours(axis: Axis, position: number): Neighbours {
   return [Math.max(lower, 0), Math.min(lower + 1, last), fraction];
 }
 
-/** Does the viewer know how to draw this grid: theta_h, theta_d, phi_d as in a MERL file? */
-export function isDrawable(grid: readonly Axis[]): boolean {
+/** theta_h, theta_d, phi_d as in a MERL file. */
+export type DrawableGrid = readonly [Axis, Axis, Axis];
+
+/** Does the page know how to draw this grid? */
+export function isDrawable(grid: readonly Axis[]): grid is DrawableGrid {
   return grid.length === 3 && ["theta_h", "theta_d", "phi_d"].every((angle, i) => grid[i]?.angle === angle);
 }

@@ -5,8 +5,16 @@
 //
 // S. Rusinkiewicz, "A New Change of Variables for Efficient BRDF Representation", 1998, section 3.
 
+import { dot } from "../numbers";
+
 /** Local frame of the surface: normal +z. */
 export type Direction = readonly [number, number, number];
+
+/** The direction that is to the other side of the half vector h: 2 (w . h) h - w. */
+export function reflected(w: Direction, h: Direction): Direction {
+  const twice = 2 * dot(w, h);
+  return [twice * h[0] - w[0], twice * h[1] - w[1], twice * h[2] - w[2]];
+}
 
 export interface HalfDiff {
   readonly thetaH: number;

@@ -38,7 +38,8 @@ export function lobe(table: Table): Lobe {
   return { mass: mass.map((m) => m / total), density: Float64Array.from(shape, (value) => value / total) };
 }
 
-function solidAngle(from: number, to: number): number {
+/** Of the directions whose polar angles are between `from` and `to`: exact near the pole, where a difference of cosines is not. */
+export function solidAngle(from: number, to: number): number {
   return 4 * Math.PI * (Math.sin(to / 2) ** 2 - Math.sin(from / 2) ** 2);
 }
 

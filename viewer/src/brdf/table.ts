@@ -1,8 +1,7 @@
 // One material's table as the server sends it: RGBA half floats in the order of a MERL file, times a scale per channel.
 // Alpha is 1 where the sample is measured and 0 elsewhere, where RGB is 0 too.
 
-import type { Axis } from "../api/schema";
-import { type Neighbours, neighbours, toPosition } from "./grid";
+import { type DrawableGrid, type Neighbours, neighbours, toPosition } from "./grid";
 import { HALF } from "./half";
 import { type Direction, toHalfDiff } from "./halfdiff";
 
@@ -10,7 +9,7 @@ export type Rgb = readonly [number, number, number];
 
 export interface Table {
   readonly name: string;
-  readonly grid: readonly [Axis, Axis, Axis];
+  readonly grid: DrawableGrid;
   readonly halfs: Uint16Array;
   readonly scale: Rgb;
 }

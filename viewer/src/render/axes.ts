@@ -1,49 +1,53 @@
-// The axes along which points in three dimensions extend, the longest first.
+// The directions in which vectors extend, the longest first.
 
 import { Vector3 } from "three";
 
-const SWEEPS = 12;
+import { dot, sum } from "../numbers";
 
-/** Eigenvectors of the points' covariance, by Jacobi rotations; right-handed. */
-export function principalAxes(points: readonly Vector3[]): [Vector3, Vector3, Vector3] {
-  const a = [0, 1, 2].map((i) =>
-    [0, 1, 2].map((j) => points.reduce((sum, p) => sum + p.getComponent(i) * p.getComponent(j), 0)),
+const ITERATIONS = 40;
+
+/** The first principal components of centred vectors, by orthogonal iteration; each of unit length, more is positive. */
+export function components(vectors: readonly Float64Array[], count: number): Float64Array[] {
+  const size = vectors[0]?.length ?? 0;
+  // Any start will do that is not orthogonal to the answer; the same each time.
+  let axes: Float64Array[] = Array.from({ length: count }, (_, k) =>
+    Float64Array.from({ length: size }, (_, i) => Math.sin((k + 1) * (i + 1))),
   );
-  const v = [
-    [1, 0, 0],
-    [0, 1, 0],
-    [0, 0, 1],
-  ];
-  for (let sweep = 0; sweep < SWEEPS; sweep++) {
-    for (const [p, q] of [
-      [0, 1],
-      [0, 2],
-      [1, 2],
-    ] as const) {
-      const angle = 0.5 * Math.atan2(2 * a[p]![q]!, a[q]![q]! - a[p]![p]!);
-      rotate(a, v, p, q, Math.cos(angle), Math.sin(angle));
-    }
+  for (let iteration = 0; iteration < ITERATIONS; iteration++) {
+    axes = orthonormal(axes.map((axis) => timesCovariance(vectors, axis)));
   }
-  const order = [0, 1, 2].sort((i, j) => a[j]![j]! - a[i]![i]!);
-  const [first, second] = order.map((i) => new Vector3(v[0]![i], v[1]![i], v[2]![i]));
+  return axes.map((axis) => (sum(axis) < 0 ? axis.map((x) => -x) : axis));
+}
+
+/** How far points are taken to extend in any case: those on a line have three axes too. */
+const LEAST = 1e-4;
+
+/** Of centred points; right-handed. */
+export function principalAxes(points: readonly Vector3[]): [Vector3, Vector3, Vector3] {
+  const least = [new Vector3(LEAST, 0, 0), new Vector3(0, LEAST, 0), new Vector3(0, 0, LEAST)];
+  const vectors = [...points, ...least].map((point) => Float64Array.from(point.toArray()));
+  const [first, second] = components(vectors, 2).map((axis) => new Vector3(...axis));
   return [first!, second!, new Vector3().crossVectors(first!, second!)];
 }
 
-/** One rotation in the plane of p and q, of the matrix from both sides and of the vectors from the right. */
-function rotate(a: number[][], v: number[][], p: number, q: number, c: number, s: number): void {
-  for (let k = 0; k < 3; k++) {
-    const [kp, kq] = [a[k]![p]!, a[k]![q]!];
-    a[k]![p] = c * kp - s * kq;
-    a[k]![q] = s * kp + c * kq;
+function timesCovariance(vectors: readonly Float64Array[], axis: Float64Array): Float64Array {
+  const product = new Float64Array(axis.length);
+  for (const vector of vectors) addScaled(product, vector, dot(axis, vector));
+  return product;
+}
+
+function orthonormal(vectors: readonly Float64Array[]): Float64Array[] {
+  const done: Float64Array[] = [];
+  for (const vector of vectors) {
+    const rest = vector.slice();
+    for (const axis of done) addScaled(rest, axis, -dot(axis, rest));
+    const length = Math.sqrt(dot(rest, rest));
+    done.push(rest.map((x) => (length > 1e-12 ? x / length : 0)));
   }
-  for (let k = 0; k < 3; k++) {
-    const [pk, qk] = [a[p]![k]!, a[q]![k]!];
-    a[p]![k] = c * pk - s * qk;
-    a[q]![k] = s * pk + c * qk;
-  }
-  for (let k = 0; k < 3; k++) {
-    const [kp, kq] = [v[k]![p]!, v[k]![q]!];
-    v[k]![p] = c * kp - s * kq;
-    v[k]![q] = s * kp + c * kq;
-  }
+  return done;
+}
+
+/** To `to`, in place. */
+function addScaled(to: Float64Array, vector: Float64Array, factor: number): void {
+  for (let i = 0; i < to.length; i++) to[i]! += factor * vector[i]!;
 }

@@ -5,8 +5,9 @@ import { EXRLoader } from "three/addons/loaders/EXRLoader.js";
 
 import type { Block } from "../api/client";
 import { HALF } from "../brdf/half";
+import type { Picture } from "../scene";
 
-const PICTURES = {
+const FILES: Record<Picture, () => Promise<{ default: string }>> = {
   apartment: () => import("@pmndrs/assets/hdri/apartment.exr"),
   city: () => import("@pmndrs/assets/hdri/city.exr"),
   dawn: () => import("@pmndrs/assets/hdri/dawn.exr"),
@@ -16,21 +17,15 @@ const PICTURES = {
   park: () => import("@pmndrs/assets/hdri/park.exr"),
   sunset: () => import("@pmndrs/assets/hdri/sunset.exr"),
   warehouse: () => import("@pmndrs/assets/hdri/warehouse.exr"),
-} as const;
-
-/** The lights one can choose: the studio of `halfway.render`, the pictures, and three points. */
-export const LIGHTS = ["studio", ...Object.keys(PICTURES), "points"] as readonly Light[];
-
-export type Light = "studio" | "points" | keyof typeof PICTURES;
+};
 
 /** Mean radiance of every picture, about that of the studio: no exposure is needed to go from one to another. */
 const MEAN = 0.6;
 
-export async function loadPicture(light: Exclude<Light, "studio" | "points">): Promise<Block> {
-  const { default: url } = await PICTURES[light]();
-  const bytes = Uint8Array.from(atob(url.slice(url.indexOf(",") + 1)), (character) =>
-    character.charCodeAt(0),
-  );
+export async function loadPicture(picture: Picture): Promise<Block> {
+  const { default: url } = await FILES[picture]();
+  const text = atob(url.slice(url.indexOf(",") + 1));
+  const bytes = Uint8Array.from(text, (character) => character.charCodeAt(0));
   const { data, width = 0, height = 0 } = new EXRLoader().setDataType(HalfFloatType).parse(bytes.buffer);
   return {
     halfs: normalised(upright(data as Uint16Array, width, height), height),

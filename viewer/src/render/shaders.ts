@@ -1,18 +1,6 @@
 // Shaders put together from their files, and the pass that draws one over a whole picture.
 
-import {
-  BufferAttribute,
-  BufferGeometry,
-  Camera,
-  GLSL3,
-  type IUniform,
-  Mesh,
-  RawShaderMaterial,
-  Scene,
-  type ShaderMaterialParameters,
-  type WebGLRenderer,
-  type WebGLRenderTarget,
-} from "three";
+import * as THREE from "three";
 
 import brdf from "./glsl/brdf.glsl?raw";
 import composite from "./glsl/composite.frag.glsl?raw";
@@ -27,13 +15,14 @@ import screen from "./glsl/screen.vert.glsl?raw";
 import shade from "./glsl/shade.frag.glsl?raw";
 import shadow from "./glsl/shadow.glsl?raw";
 import sphere from "./glsl/sphere.frag.glsl?raw";
+import srgb from "./glsl/srgb.glsl?raw";
 import { OCCLUDER_BITS } from "./occluder";
 
 export const MAX_TERMS = 32;
 /** 2^32 / g and 2^32 / g^2 with g^3 = g + 1, for the light, and again for the half vector. */
 const STEPS = [0xc13fa9a9, 0x91e10da5, 0xc13fa9a9, 0x91e10da5] as const;
 
-export type Uniforms = Record<string, IUniform>;
+export type Uniforms = Record<string, THREE.IUniform>;
 
 const HEAD = "precision highp float;\nprecision highp int;\n";
 const surface = halfdiff + brdf + shadow.replace("@BITS@", String(OCCLUDER_BITS));
@@ -48,11 +37,11 @@ export const environmentShader =
   lobe +
   shade;
 export const sphereShader = HEAD + sphere;
-export const compositeShader = HEAD + composite.replaceAll("@TERMS@", String(MAX_TERMS));
+export const compositeShader = HEAD + srgb + composite.replaceAll("@TERMS@", String(MAX_TERMS));
 
-export function meshMaterial(): RawShaderMaterial {
-  return new RawShaderMaterial({
-    glslVersion: GLSL3,
+export function meshMaterial(): THREE.RawShaderMaterial {
+  return new THREE.RawShaderMaterial({
+    glslVersion: THREE.GLSL3,
     vertexShader: HEAD + meshVertex,
     fragmentShader: HEAD + meshFragment,
     side: 2,
@@ -62,14 +51,14 @@ export function meshMaterial(): RawShaderMaterial {
 /** A fragment shader over the whole picture. */
 export class Pass {
   readonly uniforms: Uniforms;
-  readonly material: RawShaderMaterial;
-  private readonly scene = new Scene();
-  private readonly camera = new Camera();
+  readonly material: THREE.RawShaderMaterial;
+  private readonly scene = new THREE.Scene();
+  private readonly camera = new THREE.Camera();
 
-  constructor(fragmentShader: string, uniforms: Uniforms, options: ShaderMaterialParameters = {}) {
+  constructor(fragmentShader: string, uniforms: Uniforms, options: THREE.ShaderMaterialParameters = {}) {
     this.uniforms = uniforms;
-    this.material = new RawShaderMaterial({
-      glslVersion: GLSL3,
+    this.material = new THREE.RawShaderMaterial({
+      glslVersion: THREE.GLSL3,
       vertexShader: HEAD + screen,
       fragmentShader,
       uniforms,
@@ -77,25 +66,29 @@ export class Pass {
       depthWrite: false,
       ...options,
     });
-    const triangle = new BufferGeometry();
+    const triangle = new THREE.BufferGeometry();
     triangle.setAttribute(
       "position",
-      new BufferAttribute(new Float32Array([-1, -1, 0, 3, -1, 0, -1, 3, 0]), 3),
+      new THREE.BufferAttribute(new Float32Array([-1, -1, 0, 3, -1, 0, -1, 3, 0]), 3),
     );
-    const mesh = new Mesh(triangle, this.material);
+    const mesh = new THREE.Mesh(triangle, this.material);
     mesh.frustumCulled = false;
     this.scene.add(mesh);
   }
 
+  set(values: Readonly<Record<string, unknown>>): void {
+    for (const [name, value] of Object.entries(values)) this.uniforms[name]!.value = value;
+  }
+
   /** Beside the page's work, where the browser can. */
-  async compile(renderer: WebGLRenderer): Promise<void> {
+  async compile(renderer: THREE.WebGLRenderer): Promise<void> {
     // three warns on the console where it cannot.
     if (renderer.extensions.has("KHR_parallel_shader_compile"))
       await renderer.compileAsync(this.scene, this.camera);
     else renderer.compile(this.scene, this.camera);
   }
 
-  draw(renderer: WebGLRenderer, target: WebGLRenderTarget | null, layer = 0): void {
+  draw(renderer: THREE.WebGLRenderer, target: THREE.WebGLRenderTarget | null, layer = 0): void {
     renderer.setRenderTarget(target, layer);
     renderer.render(this.scene, this.camera);
   }

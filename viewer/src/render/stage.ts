@@ -2,40 +2,18 @@
 //
 // World coordinates are those of `halfway.render`: x to the right of the camera, y away from it, z up.
 
-import {
-  type BufferGeometry,
-  FloatType,
-  Matrix4,
-  Mesh,
-  NearestFilter,
-  PerspectiveCamera,
-  Scene,
-  Vector2,
-  Vector3,
-  Vector4,
-  type WebGLRenderer,
-  WebGLRenderTarget,
-} from "three";
+import * as THREE from "three";
 import { TeapotGeometry } from "three/addons/geometries/TeapotGeometry.js";
 
+import type { Shape, View } from "../scene";
+import { turnArm, widen } from "./camera";
 import { disposeOccluder, type Occluder, toOccluder } from "./occluder";
 import { meshMaterial, Pass, sphereShader } from "./shaders";
 
-/** `mesh` is a person's own. */
-export type Shape = "sphere" | "teapot" | "mesh";
-
-/** Where the camera is, around what it looks at; angles in radians, 0 is the shape's own view. */
-export interface Orbit {
-  readonly azimuth: number;
-  readonly elevation: number;
-  readonly zoom: number;
-}
-
-export const HOME: Orbit = { azimuth: 0, elevation: 0, zoom: 1 };
-
-interface View {
-  readonly eye: Vector3;
-  readonly target: Vector3;
+/** How a shape is seen before it is turned. */
+interface Standpoint {
+  readonly eye: THREE.Vector3;
+  readonly target: THREE.Vector3;
   /** In degrees, of the width of what must be seen. */
   readonly fov: number;
   /** Width by height of what must be seen. */
@@ -43,39 +21,43 @@ interface View {
 }
 
 // The cameras of `halfway.render.scenes`; that of a mesh is the page's own.
-const VIEWS: Record<Shape, View> = {
-  sphere: { eye: new Vector3(0, -12, 1), target: new Vector3(0, 0, 1), fov: 11, aspect: 1 },
-  teapot: { eye: new Vector3(0.15, -13, 5.4), target: new Vector3(0.12, 0, 1.4), fov: 29, aspect: 1.3 },
-  mesh: { eye: new Vector3(0, -12.5, 3.2), target: new Vector3(0, 0, 0), fov: 21, aspect: 1 },
+const STANDPOINTS: Record<Shape, Standpoint> = {
+  sphere: { eye: new THREE.Vector3(0, -12, 1), target: new THREE.Vector3(0, 0, 1), fov: 11, aspect: 1 },
+  teapot: {
+    eye: new THREE.Vector3(0.15, -13, 5.4),
+    target: new THREE.Vector3(0.12, 0, 1.4),
+    fov: 29,
+    aspect: 1.3,
+  },
+  mesh: { eye: new THREE.Vector3(0, -12.5, 3.2), target: new THREE.Vector3(0, 0, 0), fov: 21, aspect: 1 },
 };
 const TEAPOT_HEIGHT = 3.15;
 const TEAPOT_TURN = (-28 * Math.PI) / 180;
-const UP = new Vector3(0, 0, 1);
 
 /** A mesh as it is drawn, and as it is in the light's way. */
 interface Standing {
-  readonly geometry: BufferGeometry;
-  readonly scene: Scene;
+  readonly geometry: THREE.BufferGeometry;
+  readonly scene: THREE.Scene;
   readonly occluder: Occluder;
 }
 
 export class Stage {
-  readonly camera = new PerspectiveCamera();
-  readonly target = new WebGLRenderTarget(1, 1, {
+  readonly camera = new THREE.PerspectiveCamera();
+  readonly target = new THREE.WebGLRenderTarget(1, 1, {
     count: 2,
-    type: FloatType,
-    minFilter: NearestFilter,
-    magFilter: NearestFilter,
+    type: THREE.FloatType,
+    minFilter: THREE.NearestFilter,
+    magFilter: THREE.NearestFilter,
     depthBuffer: true,
   });
   private shape: Shape = "sphere";
-  private readonly size = new Vector2(1, 1);
+  private readonly size = new THREE.Vector2(1, 1);
   private readonly standing = new Map<Shape, Standing>();
   readonly sphere = new Pass(sphereShader, {
-    uToWorld: { value: new Matrix4() },
+    uToWorld: { value: new THREE.Matrix4() },
     uEye: { value: this.camera.position },
     uSize: { value: this.size },
-    uSphere: { value: new Vector4(0, 0, 1, 1) },
+    uSphere: { value: new THREE.Vector4(0, 0, 1, 1) },
   });
 
   resize(width: number, height: number): void {
@@ -83,28 +65,21 @@ export class Stage {
     this.target.setSize(width, height);
   }
 
-  look(shape: Shape, orbit: Orbit, mesh: BufferGeometry | null): void {
+  look({ shape, orbit, mesh }: View): void {
     this.shape = shape;
     if (shape === "teapot" && !this.standing.has(shape)) this.put(shape, teapot());
-    if (shape === "mesh" && mesh !== null && mesh !== this.standing.get(shape)?.geometry)
-      this.put(shape, mesh);
-    const view = VIEWS[shape];
-    const arm = view.eye.clone().sub(view.target);
-    const distance = arm.length() / orbit.zoom;
-    const elevation = Math.asin(arm.z / arm.length()) + orbit.elevation;
-    const azimuth = Math.atan2(arm.y, arm.x) + orbit.azimuth;
-    const limited = Math.min(Math.max(elevation, -1.5), 1.5);
-    arm.set(Math.cos(limited) * Math.cos(azimuth), Math.cos(limited) * Math.sin(azimuth), Math.sin(limited));
-    this.camera.up.copy(UP);
-    this.camera.position.copy(view.target).addScaledVector(arm, distance);
-    this.camera.lookAt(view.target);
-    this.camera.near = distance / 10;
-    this.camera.far = distance * 3;
-    this.camera.aspect = this.size.x / this.size.y;
-    const half = Math.tan((view.fov * Math.PI) / 360) / Math.min(view.aspect, this.camera.aspect);
-    this.camera.fov = (360 / Math.PI) * Math.atan(half);
-    this.camera.updateProjectionMatrix();
-    this.camera.updateMatrixWorld();
+    if (shape === "mesh" && mesh !== null && mesh.geometry !== this.standing.get(shape)?.geometry)
+      this.put(shape, mesh.geometry);
+    const { eye, target, fov, aspect } = STANDPOINTS[shape];
+    const { camera } = this;
+    const arm = turnArm(eye.clone().sub(target), orbit.azimuth, orbit.elevation).divideScalar(orbit.zoom);
+    camera.up.set(0, 0, 1);
+    camera.position.copy(target).add(arm);
+    camera.lookAt(target);
+    camera.near = arm.length() / 10;
+    camera.far = arm.length() * 3;
+    widen(camera, this.size.x / this.size.y, fov, aspect);
+    camera.updateMatrixWorld();
   }
 
   /** What casts shadows on itself; null where nothing does. */
@@ -112,7 +87,7 @@ export class Stage {
     return this.standing.get(this.shape)?.occluder ?? null;
   }
 
-  private put(shape: Shape, geometry: BufferGeometry): void {
+  private put(shape: Shape, geometry: THREE.BufferGeometry): void {
     const before = this.standing.get(shape);
     if (before) {
       before.geometry.dispose();
@@ -120,16 +95,16 @@ export class Stage {
     }
     // First the occluder, which puts the triangles into its order.
     const occluder = toOccluder(geometry);
-    this.standing.set(shape, { geometry, occluder, scene: new Scene().add(toObject(geometry)) });
+    this.standing.set(shape, { geometry, occluder, scene: new THREE.Scene().add(toObject(geometry)) });
   }
 
   /** Draw the buffer, seen through the point (x, y) of each pixel, in [0, 1). */
-  draw(renderer: WebGLRenderer, x: number, y: number): void {
+  draw(renderer: THREE.WebGLRenderer, x: number, y: number): void {
     const { width, height } = this.size;
     this.camera.setViewOffset(width, height, x - 0.5, y - 0.5, width, height);
     this.camera.updateMatrixWorld();
     if (this.shape === "sphere") {
-      const toWorld = this.sphere.uniforms.uToWorld!.value as Matrix4;
+      const toWorld = this.sphere.uniforms.uToWorld!.value as THREE.Matrix4;
       toWorld.multiplyMatrices(this.camera.matrixWorld, this.camera.projectionMatrixInverse);
       this.sphere.draw(renderer, this.target);
     } else {
@@ -143,7 +118,7 @@ export class Stage {
 }
 
 /** three's pot with the lid as published; the middle of its foot is the origin, its spout points to +x before the turn. */
-function teapot(): BufferGeometry {
+function teapot(): THREE.BufferGeometry {
   const geometry = new TeapotGeometry(1, 24, true, true, true, false);
   geometry.rotateX(Math.PI / 2);
   geometry.computeBoundingBox();
@@ -153,8 +128,8 @@ function teapot(): BufferGeometry {
   return geometry.scale(scale, scale, scale).rotateZ(TEAPOT_TURN);
 }
 
-function toObject(geometry: BufferGeometry): Mesh {
-  const mesh = new Mesh(geometry, meshMaterial());
+function toObject(geometry: THREE.BufferGeometry): THREE.Mesh {
+  const mesh = new THREE.Mesh(geometry, meshMaterial());
   mesh.frustumCulled = false;
   return mesh;
 }

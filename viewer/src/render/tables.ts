@@ -1,27 +1,20 @@
 // Tables on the graphics card: fetched when wanted, most wanted first; those wanted no more make room, the oldest first.
 
-import {
-  ClampToEdgeWrapping,
-  Data3DTexture,
-  type DataTexture,
-  HalfFloatType,
-  LinearFilter,
-  RepeatWrapping,
-  RGBAFormat,
-  Vector3,
-} from "three";
+import * as THREE from "three";
 
 import type { Client } from "../api/client";
 import type { Axis } from "../api/schema";
+import type { DrawableGrid } from "../brdf/grid";
 import { lobe } from "../brdf/lobe";
 import type { Table } from "../brdf/table";
+import { sum } from "../numbers";
 import { chances } from "./chances";
 
 export interface TableOnCard {
   readonly table: Table;
-  readonly texture: Data3DTexture;
-  readonly scale: Vector3;
-  readonly lobe: DataTexture;
+  readonly texture: THREE.Data3DTexture;
+  readonly scale: THREE.Vector3;
+  readonly lobe: THREE.DataTexture;
 }
 
 /** 11.7 MB each on the MERL grid. */
@@ -43,7 +36,7 @@ export class Tables {
 
   constructor(
     private readonly client: Client,
-    private readonly grid: readonly [Axis, Axis, Axis],
+    private readonly grid: DrawableGrid,
   ) {}
 
   get(name: string): TableOnCard | undefined {
@@ -53,7 +46,7 @@ export class Tables {
   /** The share of these tables that is here, in [0, 1]. */
   share(names: readonly string[]): number {
     const shares = names.map((name) => (this.loaded.has(name) ? 1 : (this.loading.get(name) ?? 0)));
-    return shares.reduce((a, b) => a + b, 0) / Math.max(names.length, 1);
+    return sum(shares) / Math.max(names.length, 1);
   }
 
   /** All that are needed now, and some of those that come next, both in order of urgency; what is not among them may go. */
@@ -105,15 +98,20 @@ export class Tables {
 
 function toCard(table: Table): TableOnCard {
   const [thetaH, thetaD, phiD] = table.grid;
-  const texture = new Data3DTexture(table.halfs, phiD.size, thetaD.size, thetaH.size);
-  texture.format = RGBAFormat;
-  texture.type = HalfFloatType;
-  texture.minFilter = texture.magFilter = LinearFilter;
-  texture.wrapS = RepeatWrapping;
-  texture.wrapT = texture.wrapR = ClampToEdgeWrapping;
+  const texture = new THREE.Data3DTexture(table.halfs, phiD.size, thetaD.size, thetaH.size);
+  texture.format = THREE.RGBAFormat;
+  texture.type = THREE.HalfFloatType;
+  texture.minFilter = texture.magFilter = THREE.LinearFilter;
+  texture.wrapS = THREE.RepeatWrapping;
+  texture.wrapT = texture.wrapR = THREE.ClampToEdgeWrapping;
   texture.needsUpdate = true;
   const { mass, density } = lobe(table);
-  return { table, texture, scale: new Vector3(...table.scale), lobe: chances(mass, density, mass.length) };
+  return {
+    table,
+    texture,
+    scale: new THREE.Vector3(...table.scale),
+    lobe: chances(mass, density, mass.length),
+  };
 }
 
 /** A white matte table of one sample, in the place of one that has not come. */

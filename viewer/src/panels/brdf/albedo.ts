@@ -1,6 +1,7 @@
 // Directional albedo over theta_i: the share of the light from each direction that the material gives back, per channel.
 
 import { directionalAlbedo } from "../../brdf/albedo";
+import { clamp } from "../../numbers";
 import { marks, type Pen, type Plot, type Size, short, stroke, write, writeUpwards } from "./plot";
 
 /** Directions of light, in degrees; at 90 nothing arrives. */
@@ -22,7 +23,7 @@ export function albedo(): Plot {
       pen.context.lineWidth = 1.75;
       pen.context.globalCompositeOperation = pen.blend;
       pen.channels.forEach((colour, c) => {
-        stroke(pen, colour, ...ANGLES.map((degrees, i) => place(frame, degrees, mixed[3 * i + c]!)));
+        stroke(pen, colour, ...ANGLES.map((degrees, i) => toCanvas(frame, degrees, mixed[3 * i + c]!)));
       });
       pen.context.globalCompositeOperation = "source-over";
     },
@@ -30,13 +31,13 @@ export function albedo(): Plot {
       const frame = toFrame(size, mixed);
       const degrees = ((x - frame.x0) / frame.width) * 90;
       if (degrees < -2 || degrees > 92) return null;
-      const i = Math.min(Math.max(Math.round(degrees / 5), 0), ANGLES.length - 1);
+      const i = clamp(Math.round(degrees / 5), 0, ANGLES.length - 1);
       const value = [mixed[3 * i]!, mixed[3 * i + 1]!, mixed[3 * i + 2]!] as const;
       return {
         angles: [["θi", ANGLES[i]!]],
         value,
         unit: "",
-        at: value.map((v) => place(frame, ANGLES[i]!, v)),
+        at: value.map((v) => toCanvas(frame, ANGLES[i]!, v)),
       };
     },
   };
@@ -55,7 +56,7 @@ function toFrame({ width, height }: Size, mixed: Float64Array): Frame {
   return { x0: 46, y0: height - 36, width: width - 58, height: height - 44, high };
 }
 
-function place({ x0, y0, width, height, high }: Frame, degrees: number, value: number): [number, number] {
+function toCanvas({ x0, y0, width, height, high }: Frame, degrees: number, value: number): [number, number] {
   return [x0 + (degrees / 90) * width, y0 - (value / high) * height];
 }
 
@@ -63,13 +64,13 @@ function drawAxes(pen: Pen, frame: Frame): void {
   const { context, line, quiet } = pen;
   context.lineWidth = 1;
   for (const value of [0, ...marks("linear", 0, frame.high)]) {
-    const [x, y] = place(frame, 0, value);
+    const [x, y] = toCanvas(frame, 0, value);
     // Above 1 more light would come back than arrived.
-    stroke(pen, value === 1 ? quiet : line, [x, y], place(frame, 90, value));
+    stroke(pen, value === 1 ? quiet : line, [x, y], toCanvas(frame, 90, value));
     write(pen, short(value), x - 6, y + 4, "right");
   }
   for (const degrees of [0, 30, 60, 90])
-    write(pen, `${degrees}°`, place(frame, degrees, 0)[0], frame.y0 + 14);
+    write(pen, `${degrees}°`, toCanvas(frame, degrees, 0)[0], frame.y0 + 14);
   write(pen, "θi", frame.x0 + frame.width / 2, frame.y0 + 29);
   writeUpwards(pen, "albedo", 12, frame.y0 - frame.height / 2);
 }

@@ -2,6 +2,7 @@
 
 import { type Direction, toHalfDiff } from "../../brdf/halfdiff";
 import { evaluate } from "../../brdf/table";
+import { clamp } from "../../numbers";
 import { marks, type Pen, type Plot, type Scale, type Size, scaled, short, stroke, write } from "./plot";
 
 /** Half degrees from -89.5 (where the light is) to 89.5. */
@@ -31,7 +32,7 @@ export function lobes(thetaIDegrees: number, scale: Scale): Plot {
       const frame = toFrame(size, mixed);
       if (y > frame.y0 + 4) return null;
       const i = Math.round(2 * (Math.atan2(x - frame.x0, frame.y0 - y) * (180 / Math.PI))) + 179;
-      const angle = ANGLES[Math.min(Math.max(i, 0), ANGLES.length - 1)]!;
+      const angle = ANGLES[clamp(i, 0, ANGLES.length - 1)]!;
       const at = 3 * ANGLES.indexOf(angle);
       const { thetaH, thetaD } = toHalfDiff(wi, towards(angle));
       const value = [mixed[at]!, mixed[at + 1]!, mixed[at + 2]!] as const;
@@ -43,7 +44,7 @@ export function lobes(thetaIDegrees: number, scale: Scale): Plot {
         ],
         value,
         unit: "1/sr",
-        at: value.map((v) => place(frame, scale, v, angle)),
+        at: value.map((v) => toCanvas(frame, scale, v, angle)),
       };
     },
   };
@@ -65,7 +66,7 @@ function toFrame({ width, height }: Size, mixed: Float64Array): Frame {
   return { x0: width / 2, y0: (height + reach) / 2 - 4, reach, low, high };
 }
 
-function place(
+function toCanvas(
   { x0, y0, reach, low, high }: Frame,
   scale: Scale,
   value: number,
@@ -82,7 +83,7 @@ function drawLobes(pen: Pen, frame: Frame, scale: Scale, mixed: Float64Array): v
   channels.forEach((colour, c) => {
     context.beginPath();
     ANGLES.forEach((angle, i) => {
-      context.lineTo(...place(frame, scale, mixed[3 * i + c]!, angle));
+      context.lineTo(...toCanvas(frame, scale, mixed[3 * i + c]!, angle));
     });
     context.closePath();
     context.fillStyle = `${colour}33`;

@@ -1,177 +1,183 @@
 // The BRDF itself: polar lobes for a light direction, a slice of the table, or the albedo, with the numbers under the pointer.
 
-import type { Axis } from "../../api/schema";
+import type { DrawableGrid } from "../../brdf/grid";
 import type { Context } from "../../context";
-import { el, onResize, segments, style } from "../../dom";
-import { paced } from "../../render/loop";
+import { dropdown, el, onResize, segments, style } from "../../dom";
+import { paced } from "../../paced";
 import { albedo } from "./albedo";
 import { lobes } from "./lobes";
 import { type Pen, type Plot, type Reading, SCALES, type Scale, short } from "./plot";
 import { Samples } from "./samples";
 import { slice } from "./slice";
 
-type View = "lobes" | "slice" | "albedo";
-
 /** Milliseconds that the samples may take before the page has its turn. */
 const PATIENCE = 24;
 /** Milliseconds between drawings: the picture of the material comes first. */
 const BESIDE = 60;
-const ANGLES: Record<View, { readonly name: readonly [string, string]; readonly max: number } | null> = {
-  lobes: { name: ["θ", "i"], max: 85 },
-  slice: { name: ["φ", "d"], max: 179 },
-  albedo: null,
-};
+
+type View = "lobes" | "slice" | "albedo";
+
+/** What a view can be told: an angle, named as it is written, up to `max`; and a scale. */
+interface Settings {
+  readonly angle: readonly [letter: string, index: string];
+  readonly max: number;
+  degrees: number;
+  scale: Scale;
+}
 
 export function brdfPanel(context: Context): HTMLElement {
-  const { store, tables } = context;
-  const grid = store.get().library.grid as unknown as readonly [Axis, Axis, Axis];
-  let view: View = "lobes";
-  const degrees: Record<View, number> = { lobes: 45, slice: 90, albedo: 0 };
-  const scales: Record<View, Scale> = { lobes: "cube root", slice: "linear", albedo: "linear" };
-  let pointer: { readonly x: number; readonly y: number } | null = null;
-  const samples = new Samples();
-  const canvas = el(
-    "canvas",
-    { role: "img", "aria-label": "The BRDF of the mixed material" },
-    {
-      onpointermove: ({ offsetX: x, offsetY: y }) => {
-        pointer = { x, y };
-        update();
-      },
-      onpointerleave: () => {
-        pointer = null;
-        update();
-      },
-    },
-  );
-  let pen = toPen(context, canvas);
-  const choice = segments<View>(
-    "BRDF view",
-    [
-      ["lobes", "Lobes"],
-      ["slice", "Slice"],
-      ["albedo", "Albedo"],
-    ],
-    (next) => {
-      view = next;
-      offer();
-    },
-  );
-  const name = el("span.angle");
-  const angle = el(
-    "input",
-    { type: "range", min: 0, step: 1, "aria-label": "Angle in degrees" },
-    {
+  return new BrdfPanel(context).element;
+}
+
+class BrdfPanel {
+  readonly element: HTMLElement;
+  private view: View = "lobes";
+  private readonly settings: Record<View, Settings | null> = {
+    lobes: { angle: ["θ", "i"], max: 85, degrees: 45, scale: "cube root" },
+    slice: { angle: ["φ", "d"], max: 179, degrees: 90, scale: "linear" },
+    albedo: null,
+  };
+  private readonly samples = new Samples();
+  private readonly canvas: HTMLCanvasElement;
+  private readonly reading = el("p.quiet.reading");
+  private pen: Pen;
+  private pointer: { readonly x: number; readonly y: number } | null = null;
+  private readonly update = paced(() => this.draw(), BESIDE);
+  private timer: ReturnType<typeof setTimeout> | undefined;
+
+  constructor(private readonly context: Context) {
+    const { store } = context;
+    this.canvas = el("canvas", {
+      role: "img",
+      "aria-label": "The BRDF of the mixed material",
+      onpointermove: ({ offsetX: x, offsetY: y }) => this.point({ x, y }),
+      onpointerleave: () => this.point(null),
+    });
+    this.pen = toPen(context, this.canvas);
+    const controls = el("div.line.controls");
+    this.element = el(
+      "section.panel.brdf",
+      { "aria-label": "BRDF" },
+      el("div.line.titled", el("h2", "BRDF"), this.viewChoice(controls)),
+      this.canvas,
+      this.reading,
+      controls,
+    );
+    onResize(this.canvas, (width, height) => {
+      this.canvas.width = width;
+      this.canvas.height = height;
+      // At once, so that it is not empty for a frame.
+      this.draw();
+    });
+    store.watch(["scheme"], () => {
+      this.pen = toPen(context, this.canvas);
+      this.update();
+    });
+    store.watch(["recipe", "arrived"], this.update);
+  }
+
+  private viewChoice(controls: HTMLElement): HTMLElement {
+    const { element, mark } = segments<View>(
+      "BRDF view",
+      [
+        ["lobes", "Lobes"],
+        ["slice", "Slice"],
+        ["albedo", "Albedo"],
+      ],
+      (view) => choose(view),
+    );
+    const choose = (view: View) => {
+      this.view = view;
+      mark(view);
+      const settings = this.settings[view];
+      controls.replaceChildren(...(settings ? [this.angle(settings), this.scale(settings)] : []));
+      this.update();
+    };
+    choose(this.view);
+    return element;
+  }
+
+  private angle(settings: Settings): HTMLElement {
+    const [letter, index] = settings.angle;
+    const input = el("input", {
+      type: "range",
+      min: 0,
+      max: settings.max,
+      step: 1,
+      "aria-label": "Angle in degrees",
+      value: settings.degrees,
       oninput: () => {
-        degrees[view] = Number(angle.value);
-        offer();
+        settings.degrees = Number(input.value);
+        output.textContent = `${settings.degrees}°`;
+        this.update();
       },
-    },
-  );
-  const output = el("output");
-  const label = el("label", {}, {}, name, angle, output);
-  const scale = el(
-    "select.field.small",
-    { "aria-label": "Scale" },
-    {
-      onchange: () => {
-        scales[view] = scale.value as Scale;
-        offer();
-      },
-    },
-    ...SCALES.map((each) => el("option", { value: each }, {}, each)),
-  );
-  const reading = el("p.reading");
-  const offer = () => {
-    choice.mark(view);
-    const about = ANGLES[view];
-    label.hidden = scale.hidden = about === null;
-    if (about !== null) {
-      name.replaceChildren(about.name[0], el("sub", {}, {}, about.name[1]));
-      angle.max = String(about.max);
-      angle.value = String(degrees[view]);
-      output.textContent = `${degrees[view]}°`;
-      scale.value = scales[view];
-    }
-    update();
-  };
-  const update = paced(() => draw(), BESIDE);
-  let timer = 0;
-  /** Not at the pace of drawing: nothing is drawn before the last sample is there. */
-  const goOn = () => {
-    window.clearTimeout(timer);
-    timer = window.setTimeout(draw);
-  };
-  const plots: Record<View, () => Plot> = {
-    lobes: () => lobes(degrees.lobes, scales.lobes),
-    slice: () => slice(grid, degrees.slice, scales.slice),
-    albedo,
-  };
-  const draw = () => {
+    });
+    const output = el("output", `${settings.degrees}°`);
+    return el("label.line", el("span", letter, el("sub", index)), input, output);
+  }
+
+  private scale(settings: Settings): HTMLElement {
+    const options = SCALES.map((scale) => [scale] as const);
+    const select = dropdown({ "aria-label": "Scale" }, options, (scale) => {
+      settings.scale = scale;
+      this.update();
+    });
+    select.value = settings.scale;
+    return select;
+  }
+
+  private point(pointer: { readonly x: number; readonly y: number } | null): void {
+    this.pointer = pointer;
+    this.update();
+  }
+
+  private plot(): Plot {
+    const { lobes: ofLobes, slice: ofSlice } = this.settings;
+    const grid = this.context.store.get().library.grid as unknown as DrawableGrid;
+    if (this.view === "lobes") return lobes(ofLobes!.degrees, ofLobes!.scale);
+    return this.view === "slice" ? slice(grid, ofSlice!.degrees, ofSlice!.scale) : albedo();
+  }
+
+  private draw(): void {
+    const { store, tables } = this.context;
     const { recipe } = store.get();
-    if (canvas.width === 0 || recipe.length === 0) return;
-    const plot = plots[view]();
-    const missing = recipe.some(({ name }) => tables.get(name) === undefined);
-    const share = samples.make(plot, recipe, (name) => tables.get(name)?.table, PATIENCE);
-    // Until all is there the plot of before stays.
-    if (share < 1) {
-      reading.textContent = missing ? "loading tables" : `integrating, ${Math.round(100 * share)} %`;
-      if (!missing) goOn();
+    if (this.canvas.width === 0 || recipe.length === 0) return;
+    const plot = this.plot();
+    const share = this.samples.make(plot, recipe, (name) => tables.get(name)?.table, PATIENCE);
+    if (share === 1) {
+      this.show(plot, this.samples.mix(plot, recipe));
       return;
     }
-    const mixed = samples.mix(plot, recipe);
+    // Until all is there the plot of before stays.
+    const missing = recipe.some(({ name }) => tables.get(name) === undefined);
+    this.reading.textContent = missing ? "loading tables" : `integrating, ${Math.round(100 * share)} %`;
+    clearTimeout(this.timer);
+    // Not at the pace of drawing: nothing is drawn before the last sample is there.
+    if (!missing) this.timer = setTimeout(() => this.draw());
+  }
+
+  private show(plot: Plot, mixed: Float64Array): void {
+    const { pen, canvas, pointer } = this;
     const size = { width: canvas.clientWidth, height: canvas.clientHeight };
     const ratio = canvas.width / size.width;
     pen.context.setTransform(ratio, 0, 0, ratio, 0, 0);
     pen.context.clearRect(0, 0, size.width, size.height);
     plot.draw(pen, size, mixed);
-    const found = pointer && plot.read(pointer.x, pointer.y, size, mixed);
-    if (found) mark(pen, found);
-    reading.replaceChildren(...(found ? describe(found) : ["point at the plot for numbers"]));
-  };
-  onResize(canvas, (width, height) => {
-    canvas.width = width;
-    canvas.height = height;
-    // At once, so that it is not empty for a frame.
-    draw();
-  });
-  store.watch(
-    ({ scheme }) => scheme,
-    () => {
-      pen = toPen(context, canvas);
-      update();
-    },
-  );
-  store.watch(({ recipe, arrived }) => [recipe, arrived], update);
-  offer();
-  return el(
-    "section.panel.brdf",
-    { "aria-label": "BRDF" },
-    {},
-    el("div.titled", {}, {}, el("h2", {}, {}, "BRDF"), choice.element),
-    canvas,
-    reading,
-    el("div.controls", {}, {}, label, scale),
-  );
+    const reading = pointer && plot.read(pointer.x, pointer.y, size, mixed);
+    if (reading) mark(pen, reading);
+    this.reading.replaceChildren(...(reading ? describe(reading) : ["point at the plot for numbers"]));
+  }
 }
 
 function toPen({ root, store }: Context, canvas: HTMLCanvasElement): Pen {
-  const [line, quiet, text, accent, red, green, blue] = [
-    "--line",
-    "--quiet",
-    "--text",
-    "--accent",
-    "--red",
-    "--green",
-    "--blue",
-  ].map((name) => style(root, name));
+  const colour = (name: string) => style(root, `--${name}`);
   return {
     context: canvas.getContext("2d")!,
-    line: line!,
-    quiet: quiet!,
-    text: text!,
-    accent: accent!,
-    channels: [red!, green!, blue!],
+    line: colour("line"),
+    quiet: colour("quiet"),
+    text: colour("text"),
+    accent: colour("accent"),
+    channels: [colour("red"), colour("green"), colour("blue")],
     blend: store.get().scheme === "light" ? "multiply" : "screen",
   };
 }
@@ -186,11 +192,10 @@ function mark({ context, text }: Pen, { at }: Reading): void {
   }
 }
 
-function describe({ angles, value, unit }: Reading): (Node | string)[] {
-  const places = angles.map(([angle, degrees]) =>
-    el("span", {}, {}, angle[0]!, el("sub", {}, {}, angle.slice(1)), ` ${degrees.toFixed(1)}°`),
+function describe({ angles, value, unit }: Reading): HTMLElement[] {
+  const directions = angles.map(([angle, degrees]) =>
+    el("span", angle[0]!, el("sub", angle.slice(1)), ` ${degrees.toFixed(1)}°`),
   );
-  if (value === null) return [el("span", {}, {}, ...places), el("span", {}, {}, "unmeasured")];
-  const channels = value.map((x, c) => el(`span.${["r", "g", "b"][c]}`, {}, {}, short(x)));
-  return [el("span", {}, {}, ...places), el("span", {}, {}, ...channels, unit)];
+  const channels = value?.map((x, c) => el(`span.${["r", "g", "b"][c]}`, short(x)));
+  return [el("span", ...directions), el("span", ...(channels ? [...channels, unit] : ["unmeasured"]))];
 }

@@ -30,11 +30,11 @@ export class Samples {
     const end = performance.now() + milliseconds;
     let done = 0;
     for (const { name } of recipe) {
-      const found = table(name);
-      if (found === undefined) continue;
+      const from = table(name);
+      if (from === undefined) continue;
       const own = this.kept.get(name) ?? { values: new Float64Array(plot.length), steps: 0 };
       this.kept.set(name, own);
-      while (own.steps < plot.nSteps && performance.now() < end) plot.fill(found, own.values, own.steps++);
+      while (own.steps < plot.nSteps && performance.now() < end) plot.fill(from, own.values, own.steps++);
       done += own.steps;
     }
     return done / (recipe.length * plot.nSteps);

@@ -1,5 +1,5 @@
 // The picture of a recipe is the weighted sum of its materials' pictures, channel by channel: exact, because direct light is
-// linear in the BRDF. Then exposure and the sRGB curve of IEC 61966-2-1.
+// linear in the BRDF. Then exposure and the curve of the screen.
 
 uniform highp sampler2DArray uBasis;
 uniform vec4 uTerms[@TERMS@]; // weights of r, g, b; layer
@@ -9,11 +9,6 @@ uniform int uOtherCount;
 uniform float uSplit; // pixels from the left; the other recipe is to its right
 uniform float uExposure;
 out vec4 colour;
-
-vec3 toSrgb(vec3 linear) {
-  vec3 x = clamp(linear, 0.0, 1.0);
-  return mix(1.055 * pow(x, vec3(1.0 / 2.4)) - 0.055, 12.92 * x, lessThanEqual(x, vec3(0.0031308)));
-}
 
 void main() {
   ivec2 here = ivec2(gl_FragCoord.xy);

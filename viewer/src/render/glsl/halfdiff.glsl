@@ -7,6 +7,11 @@ vec3 perpendicular(vec3 v) {
   return normalize(abs(v.x) > 0.5 ? vec3(-v.y, v.x, 0.0) : vec3(0.0, -v.z, v.y));
 }
 
+// The direction that is to the other side of the half vector h.
+vec3 reflected(vec3 w, vec3 h) {
+  return 2.0 * dot(w, h) * h - w;
+}
+
 // Of an isotropic material: (theta_h, theta_d, phi_d).
 vec3 toHalfDiff(vec3 n, vec3 wi, vec3 wo) {
   vec3 h = normalize(wi + wo);

@@ -20,7 +20,7 @@ vec3 sampleLobe(vec3 n, vec3 wo, vec2 u) {
   vec3 y = cross(n, x);
   float phi = 2.0 * PI * u.y;
   vec3 h = sine * (cos(phi) * x + sin(phi) * y) + (1.0 - 2.0 * m) * n;
-  return normalize(2.0 * dot(wo, h) * h - wo);
+  return normalize(reflected(wo, h));
 }
 
 // Of a direction whose half vector has this theta_h, at this theta_d: the half vector's density over 4 (wo . h).

@@ -22,8 +22,7 @@ vec3 shade(vec3 n, vec3 at, vec3 wo) {
   return sum;
 }
 #else
-uniform uint uFirst;
-uniform int uSamples;
+uniform uint uSample; // the number of this sample
 
 // One sample of the multi-sample estimator with the balance heuristic: E. Veach, L. Guibas, "Optimally Combining
 // Sampling Techniques for Monte Carlo Rendering", SIGGRAPH 1995, section 3.
@@ -38,13 +37,9 @@ vec3 contribution(vec3 n, vec3 at, vec3 wi, vec3 wo) {
 
 vec3 shade(vec3 n, vec3 at, vec3 wo) {
   uint pixel = uint(gl_FragCoord.x) + (uint(gl_FragCoord.y) << 16u);
-  vec3 sum = vec3(0.0);
-  for (int s = 0; s < uSamples; s++) {
-    uint i = uFirst + uint(s);
-    sum += contribution(n, at, sampleEnv(vec2(random(i, 0, pixel), random(i, 1, pixel))), wo);
-    sum += contribution(n, at, sampleLobe(n, wo, vec2(random(i, 2, pixel), random(i, 3, pixel))), wo);
-  }
-  return sum / float(uSamples);
+  vec3 byLight = sampleEnv(vec2(random(uSample, 0, pixel), random(uSample, 1, pixel)));
+  vec3 byMaterial = sampleLobe(n, wo, vec2(random(uSample, 2, pixel), random(uSample, 3, pixel)));
+  return contribution(n, at, byLight, wo) + contribution(n, at, byMaterial, wo);
 }
 #endif
 

@@ -1,8 +1,9 @@
 // Turning the object: drag, or Alt and an arrow; the wheel or two fingers for the distance.
 
-import type { Context } from "../context";
+import type { Context } from "../../context";
+import { turned, zoomed } from "../../scene";
 
-interface Place {
+interface Point {
   readonly x: number;
   readonly y: number;
 }
@@ -18,7 +19,28 @@ const ARROWS: Readonly<Record<string, readonly [number, number]>> = {
 };
 
 export function orbitOnDrag({ store }: Context, canvas: HTMLCanvasElement): void {
-  const down = new Map<number, Place>();
+  const turn = (azimuth: number, elevation: number) =>
+    store.set({ orbit: turned(store.get().orbit, azimuth, elevation) });
+  const zoom = (factor: number) => store.set({ orbit: zoomed(store.get().orbit, factor) });
+  listenToFingers(canvas, turn, zoom);
+  turnOnKeys(canvas, turn);
+  canvas.addEventListener(
+    "wheel",
+    (event) => {
+      event.preventDefault();
+      zoom(Math.exp(-event.deltaY * 0.001));
+    },
+    { passive: false },
+  );
+}
+
+/** One finger, or the mouse, turns; two zoom. */
+function listenToFingers(
+  canvas: HTMLCanvasElement,
+  turn: (azimuth: number, elevation: number) => void,
+  zoom: (factor: number) => void,
+): void {
+  const down = new Map<number, Point>();
   canvas.addEventListener("pointerdown", ({ pointerId, clientX: x, clientY: y }) => {
     canvas.setPointerCapture(pointerId);
     down.set(pointerId, { x, y });
@@ -33,29 +55,6 @@ export function orbitOnDrag({ store }: Context, canvas: HTMLCanvasElement): void
   });
   for (const end of ["pointerup", "pointercancel"] as const)
     canvas.addEventListener(end, ({ pointerId }) => down.delete(pointerId));
-  const turn = (azimuth: number, elevation: number) => {
-    const { orbit } = store.get();
-    store.set({
-      orbit: {
-        ...orbit,
-        azimuth: orbit.azimuth + azimuth,
-        elevation: Math.min(Math.max(orbit.elevation + elevation, -1.4), 1.4),
-      },
-    });
-  };
-  const zoom = (factor: number) => {
-    const { orbit } = store.get();
-    store.set({ orbit: { ...orbit, zoom: Math.min(Math.max(orbit.zoom * factor, 0.4), 4) } });
-  };
-  turnOnKeys(canvas, turn);
-  canvas.addEventListener(
-    "wheel",
-    (event) => {
-      event.preventDefault();
-      zoom(Math.exp(-event.deltaY * 0.001));
-    },
-    { passive: false },
-  );
 }
 
 /** Alt and an arrow turn what the canvas shows: radians of azimuth and elevation. */
@@ -71,6 +70,6 @@ export function turnOnKeys(
   });
 }
 
-function distance(a: Place, b: Place): number {
+function distance(a: Point, b: Point): number {
   return Math.hypot(a.x - b.x, a.y - b.y);
 }

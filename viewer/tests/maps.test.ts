@@ -1,9 +1,9 @@
 import { Vector3 } from "three";
 import { expect, test } from "vitest";
 
-import { components } from "../src/render/appearance";
-import { principalAxes } from "../src/render/axes";
-import { quantileScale, Scores } from "../src/render/display";
+import { only } from "../src/recipe";
+import { components, principalAxes } from "../src/render/axes";
+import { CoordinateMap, quantileScale } from "../src/render/maps";
 
 test("the longest way of a cloud is its first axis", () => {
   const [along, across] = [new Vector3(1, 2, 2).normalize(), new Vector3(2, -2, 1).normalize()];
@@ -15,6 +15,20 @@ test("the longest way of a cloud is its first axis", () => {
   expect(Math.abs(first.dot(along))).toBeCloseTo(1, 10);
   expect(Math.abs(second.dot(across))).toBeCloseTo(1, 10);
   expect(Math.abs(third.dot(along))).toBeCloseTo(0, 10);
+});
+
+test("points on a line, or all in one, have three axes too", () => {
+  for (const points of [
+    [-1, 0, 1],
+    [0, 0],
+  ].map((all) => all.map((x) => new Vector3(x, 0, 0)))) {
+    const axes = principalAxes(points);
+    axes.forEach((axis, i) => {
+      axes.forEach((other, j) => {
+        expect(axis.dot(other)).toBeCloseTo(i === j ? 1 : 0, 10);
+      });
+    });
+  }
 });
 
 test("a quantile scale is monotone and takes the ends to -1 and 1", () => {
@@ -37,9 +51,12 @@ test("a material's own point is where its mix is drawn", () => {
     [1, 8, 2],
   ];
   const names = points.map((_, i) => String(i));
-  const display = new Scores({ name: "", channel: "all", axes: ["a", "b", "c"], points, edges: [] }, names);
+  const map = new CoordinateMap(
+    { name: "", channel: "all", axes: ["a", "b", "c"], points, edges: [] },
+    names,
+  );
   names.forEach((name, i) => {
-    expect(display.place([{ name, weight: [1, 1, 1] }]).distanceTo(display.points[i]!)).toBeLessThan(1e-12);
+    expect(map.pointOf(only(name)).distanceTo(map.points[i]!)).toBeLessThan(1e-12);
   });
 });
 

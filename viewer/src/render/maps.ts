@@ -7,41 +7,37 @@
 import { Matrix3, Vector3 } from "three";
 
 import type { Embedding } from "../api/schema";
-import { type Ingredient, weightIn } from "../recipe";
+import { mixedPoint } from "../coordinates";
+import { clamp } from "../numbers";
+import type { Ingredient } from "../recipe";
 import { principalAxes } from "./axes";
 
 /** Where materials and recipes are drawn. */
-export interface Placement {
+export interface SpaceMap {
   /** Of the materials, in the library's order, around the origin. */
   readonly points: readonly Vector3[];
-  readonly place: (recipe: readonly Ingredient[]) => Vector3;
+  readonly pointOf: (recipe: readonly Ingredient[]) => Vector3;
 }
 
 const MAX_QUANTILES = 13;
 /** Of the longest way of the cloud from its middle. */
 const RADIUS = 1.35;
 
-export class Scores implements Placement {
+/** By the coordinates of an embedding. */
+export class CoordinateMap implements SpaceMap {
   readonly points: readonly Vector3[];
   private readonly extents: readonly (readonly [number, number])[];
   private readonly scales: readonly ((x: number) => number)[];
   private readonly centre = new Vector3();
   private readonly turn = new Matrix3();
 
-  private readonly indices: ReadonlyMap<string, number>;
-
   constructor(
     private readonly embedding: Embedding,
-    names: readonly string[],
+    private readonly names: readonly string[],
   ) {
-    this.indices = new Map(names.map((name, i) => [name, i]));
-    this.scales = embedding.axes.map((_, axis) =>
-      quantileScale(embedding.points.map((point) => point[axis]!)),
-    );
-    this.extents = embedding.axes.map((_, axis) => {
-      const values = embedding.points.map((point) => point[axis]!);
-      return [Math.min(...values), Math.max(...values)] as const;
-    });
+    const columns = embedding.axes.map((_, axis) => embedding.points.map((point) => point[axis]!));
+    this.scales = columns.map(quantileScale);
+    this.extents = columns.map((values) => [Math.min(...values), Math.max(...values)]);
     const stretched = embedding.points.map((point) => this.stretch(point));
     for (const point of stretched) this.centre.addScaledVector(point, 1 / stretched.length);
     const centred = stretched.map((point) => point.clone().sub(this.centre));
@@ -55,24 +51,16 @@ export class Scores implements Placement {
     this.points = stretched.map((point) => this.toView(point));
   }
 
-  /** The point of a mix is the mix of the points, in each channel. */
-  place(recipe: readonly Ingredient[]): Vector3 {
-    const { axes, points, channel } = this.embedding;
-    const sum = axes.map((_, axis) =>
-      recipe.reduce((total, ingredient) => {
-        const point = points[this.indices.get(ingredient.name) ?? 0]!;
-        return total + weightIn(ingredient, channel) * point[axis]!;
-      }, 0),
-    );
-    return this.at(sum);
+  pointOf(recipe: readonly Ingredient[]): Vector3 {
+    return this.pointAt(mixedPoint(this.embedding, this.names, recipe));
   }
 
   /** Where coordinates are drawn; beyond the materials' extent, at its end. */
-  at(coordinates: readonly number[]): Vector3 {
+  pointAt(coordinates: readonly number[]): Vector3 {
     return this.toView(this.stretch(coordinates));
   }
 
-  /** The coordinates of what is drawn at a place: the inverse of `place`. */
+  /** The coordinates of what is drawn at a point: the inverse of `pointAt`. */
   coordinatesAt(view: Vector3): number[] {
     const stretched = view.clone().applyMatrix3(this.turn.clone().invert()).add(this.centre);
     return this.scales.map((scale, axis) => invert(scale, stretched.getComponent(axis), this.extents[axis]!));
@@ -122,7 +110,7 @@ function monotone(xs: readonly number[], ys: readonly number[]): (x: number) => 
     let i = 0;
     while (i < xs.length - 2 && x >= xs[i + 1]!) i++;
     const width = xs[i + 1]! - xs[i]!;
-    const s = Math.min(Math.max((x - xs[i]!) / width, 0), 1);
+    const s = clamp((x - xs[i]!) / width, 0, 1);
     const [s2, s3] = [s * s, s * s * s];
     return (
       (2 * s3 - 3 * s2 + 1) * ys[i]! +

@@ -1,0 +1,114 @@
+"""What a person sees, not what is in a buffer: the page as the browser puts it together, on a slow machine.
+
+The processor is throttled by 6, and the card is a rasteriser in software.
+"""
+
+from collections.abc import Callable
+from io import BytesIO
+
+import numpy as np
+import pytest
+from conftest import Explorer  # pyright: ignore[reportMissingImports]
+from PIL import Image
+
+THROTTLED = 6
+SIZE = {"width": 1440, "height": 900}
+"""So large that a sample of the whole picture takes long."""
+SECOND = 1000
+COMMON = "#space=linear&pace=uniform&shape=teapot&stops="
+BEFORE = "cherry-235,teflon&t=0.05"
+WHOLE = (
+    "() => document.querySelector('.live').width >= document.querySelector('.material').clientWidth"
+)
+
+
+def set_t(explorer: Explorer) -> None:
+    explorer.set_t(0.95)
+
+
+def set_stop(explorer: Explorer) -> None:
+    explorer.page.locator("[data-stop=cherry-235] > button").click()
+    explorer.set_t(0.05)
+    explorer.page.locator("[name=search]").fill("yellow-matte")
+    explorer.page.keyboard.press("Enter")
+
+
+def set_exposure(explorer: Explorer) -> None:
+    explorer.page.get_by_label("Exposure in stops").fill("3")
+
+
+def set_split(explorer: Explorer) -> None:
+    split = explorer.page.locator(".split")
+    box = explorer.page.locator(".material").bounding_box()
+    assert box is not None
+    split.hover()
+    explorer.page.mouse.down()
+    explorer.page.mouse.move(box["x"] + 0.1 * box["width"], box["y"] + 0.5 * box["height"])
+    explorer.page.mouse.up()
+
+
+def compare(explorer: Explorer) -> None:
+    explorer.page.locator("[name=compare]").select_option("stop:teflon")
+
+
+# What is done where, and a link to (nearly) what is to be seen then.
+CHANGES = [
+    (set_t, BEFORE, "cherry-235,teflon&t=0.95"),
+    (set_stop, BEFORE, "yellow-matte-plastic,teflon&t=0"),
+    (set_exposure, BEFORE, BEFORE + "&exposure=3"),
+    (compare, BEFORE, BEFORE + "&compare=stop:teflon"),
+    (set_split, BEFORE + "&compare=stop:teflon", "cherry-235,teflon&t=1"),
+]
+
+
+@pytest.mark.parametrize(
+    ("change", "before", "after"), CHANGES, ids=lambda x: getattr(x, "__name__", "")
+)
+def test_a_change_is_seen_a_second_later_while_the_whole_picture_is_made(
+    explorer: Explorer, change: Callable[[Explorer], None], before: str, after: str
+) -> None:
+    explorer.page.set_viewport_size(SIZE)
+    expected = seen_at(explorer, after)
+    stale = seen_at(explorer, before)
+    explorer.page.wait_for_function(WHOLE, timeout=60_000)
+    after_a_second = difference(seen_after(explorer, change), expected)
+    assert after_a_second < difference(stale, expected) / 2
+
+
+def test_a_change_is_seen_a_second_later_while_the_picture_is_small(explorer: Explorer) -> None:
+    explorer.page.set_viewport_size(SIZE)
+    expected = seen_at(explorer, "cherry-235,teflon&t=0.95")
+    stale = seen_at(explorer, BEFORE)
+    after_a_second = difference(seen_after(explorer, set_t), expected)
+    assert after_a_second < difference(stale, expected) / 2
+
+
+def seen_at(explorer: Explorer, stops: str) -> np.ndarray:
+    """The first picture of a page that shows nothing else before."""
+    explorer.open(COMMON + stops)
+    explorer.wait_for_picture(4)
+    return seen(explorer)
+
+
+def seen_after(explorer: Explorer, change: Callable[[Explorer], None]) -> np.ndarray:
+    """What is seen a second after a change by a person whose machine is slow."""
+    session = explorer.page.context.new_cdp_session(explorer.page)
+    session.send("Emulation.setCPUThrottlingRate", {"rate": THROTTLED})
+    change(explorer)
+    explorer.page.wait_for_timeout(SECOND)
+    return seen(explorer)
+
+
+def seen(explorer: Explorer) -> np.ndarray:
+    """Mean colours of large squares of the material's panel, in 8 bits: noise and coarse pixels do not count."""
+    box = explorer.page.locator(".material").bounding_box()
+    assert box is not None
+    with Image.open(BytesIO(explorer.page.screenshot())) as page:
+        panel = page.crop(
+            (box["x"], box["y"] + 50, box["x"] + box["width"], box["y"] + box["height"] - 60)
+        )
+        return np.asarray(panel.convert("RGB").resize((12, 12), Image.Resampling.BOX), float)
+
+
+def difference(a: np.ndarray, b: np.ndarray) -> float:
+    return float(np.abs(a - b).mean())

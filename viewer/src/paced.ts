@@ -1,0 +1,19 @@
+/** Draw when asked to, once a frame and not sooner than so many milliseconds after the last time. */
+export function paced(draw: () => void, least = 0): () => void {
+  let scheduled = false;
+  let last = Number.NEGATIVE_INFINITY;
+  const frame = (now: number) => {
+    if (now - last < least) {
+      requestAnimationFrame(frame);
+      return;
+    }
+    scheduled = false;
+    last = now;
+    draw();
+  };
+  return () => {
+    if (scheduled) return;
+    scheduled = true;
+    requestAnimationFrame(frame);
+  };
+}

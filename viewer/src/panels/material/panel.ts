@@ -1,0 +1,95 @@
+// The material: a live picture of the exact mixed table.
+
+import type { Context } from "../../context";
+import { dropdown, el, iconButton } from "../../dom";
+import { EXPOSURES, HOME, LIGHTS, type Light } from "../../scene";
+import { LivePicture, type Progress } from "./live";
+import { openDropped, shapeChoice } from "./objects";
+import { orbitOnDrag } from "./orbit";
+import { splitHandle } from "./split";
+import { stillPictures } from "./still";
+
+export function materialPanel(context: Context): HTMLElement {
+  const canvas = el("canvas.view.live", {
+    tabindex: 0,
+    role: "img",
+    "aria-label": "The material on an object; drag it, or press Alt and an arrow, to turn it",
+  });
+  const note = el("span.note");
+  const bar = el("i");
+  const panel = el(
+    "section.panel.material.stage",
+    { "aria-label": "Material" },
+    canvas,
+    el("div.line.overlay.top", el("h2", "Material"), el("div.group", note, homeButton(context))),
+    el(
+      "div.line.wrap.overlay.bottom",
+      shapeChoice(context),
+      el("div.line.wrap", lightChoice(context), exposure(context)),
+    ),
+    splitHandle(context),
+    el("div.bar", bar),
+  );
+  openDropped(context, panel);
+  try {
+    new LivePicture(context, canvas, (progress) => describe(progress, panel, note, bar));
+    orbitOnDrag(context, canvas);
+  } catch (error) {
+    canvas.hidden = true;
+    stillPictures(context, panel, error instanceof Error ? error.message : String(error));
+  }
+  return panel;
+}
+
+function describe(
+  { materials, loaded, samples, target, settled }: Progress,
+  panel: HTMLElement,
+  note: HTMLElement,
+  bar: HTMLElement,
+): void {
+  const which = materials === 1 ? "the table" : `${materials} tables`;
+  const share = loaded < 1 ? loaded : samples / target;
+  note.textContent =
+    loaded < 1 ? `loading ${which}, ${Math.round(100 * loaded)} %` : `${samples} / ${target} samples`;
+  bar.style.transform = `scaleX(${share < 1 ? share : 0})`;
+  Object.assign(panel.dataset, { samples, ready: samples > 0, settled });
+}
+
+function homeButton({ store }: Context): HTMLElement {
+  const button = iconButton("home", "Turn back to the front", () => store.set({ orbit: HOME }));
+  store.watch(["orbit"], ({ orbit }) => {
+    button.hidden = orbit === HOME;
+  });
+  return button;
+}
+
+const TITLES: Partial<Record<Light, string>> = { points: "three lights" };
+
+function lightChoice({ store }: Context): HTMLElement {
+  const lights = LIGHTS.map((light) => [light, TITLES[light]] as const);
+  const select = dropdown({ name: "light", "aria-label": "Light" }, lights, (light) => store.set({ light }));
+  store.watch(["light"], ({ light }) => {
+    select.value = light;
+  });
+  return select;
+}
+
+function exposure({ store }: Context): HTMLElement {
+  const [min, max] = EXPOSURES;
+  const input = el("input", {
+    type: "range",
+    min,
+    max,
+    step: 0.1,
+    "aria-label": "Exposure in stops",
+    oninput: () => store.set({ exposure: Number(input.value) }),
+    ondblclick: () => store.set({ exposure: 0 }),
+  });
+  const output = el("output");
+  store.watch(["exposure"], ({ exposure }) => {
+    input.value = String(exposure);
+    const sign = exposure > 0 ? "+" : exposure < 0 ? "−" : "";
+    output.textContent = `${sign}${Math.abs(exposure).toFixed(1)} EV`;
+  });
+  return el("label.line.exposure", { title: "Exposure (double click: 0)" }, input, output);
+}

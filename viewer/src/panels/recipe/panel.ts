@@ -1,0 +1,62 @@
+// The recipe: what the material is made of, and taking it home.
+
+import type { Context } from "../../context";
+import { el } from "../../dom";
+import { CHANNELS, type Ingredient, meanWeight } from "../../recipe";
+import { bodyColour } from "./body";
+import { exports } from "./exports";
+
+export function recipePanel(context: Context): HTMLElement {
+  const list = el("ol");
+  const note = el("p.note");
+  const rows = new Map<string, HTMLLIElement>();
+  context.store.watch(["recipe"], ({ recipe }) => {
+    const ordered = [...recipe].sort((a, b) => meanWeight(b) - meanWeight(a));
+    const items = ordered.map((ingredient) => {
+      const row = rows.get(ingredient.name) ?? newRow(context, ingredient.name);
+      rows.set(ingredient.name, row);
+      fill(row, ingredient);
+      return row;
+    });
+    if (items.some((item, i) => list.children[i] !== item) || list.children.length !== items.length)
+      list.replaceChildren(...items);
+    const many = recipe.length ? `${recipe.length} materials` : "";
+    note.textContent = recipe.length === 1 ? "one measured material" : many;
+  });
+  return el(
+    "section.panel.recipe",
+    { "aria-label": "Recipe" },
+    el("div.line.titled", el("h2", "Recipe"), note),
+    list,
+    bodyColour(context),
+    exports(context),
+  );
+}
+
+function newRow({ store, thumbnails }: Context, name: string): HTMLLIElement {
+  return el(
+    "li",
+    {
+      onpointerenter: () => store.set({ hovered: name }),
+      onpointerleave: () => store.set({ hovered: null }),
+    },
+    thumbnails.canvas(name),
+    el("span.cut.name", { title: name }, name),
+    el("span.quiet.share"),
+    el("span.bars", ...CHANNELS.map((channel) => el(`i.${channel}`))),
+  );
+}
+
+function fill(row: HTMLLIElement, { weight }: Ingredient): void {
+  const same = weight[0] === weight[1] && weight[1] === weight[2];
+  const bars = row.querySelector<HTMLElement>(".bars")!;
+  bars.className = same ? "bars same" : "bars";
+  CHANNELS.forEach((_, c) => {
+    const bar = bars.children[c] as HTMLElement;
+    bar.hidden = same && c > 0;
+    bar.style.transform = `scaleX(${weight[c]})`;
+  });
+  const percent = (w: number) => (w === 0 ? "0" : w < 0.005 ? "<1" : String(Math.round(100 * w)));
+  const shares = same ? percent(weight[0]) : weight.map(percent).join(" · ");
+  row.querySelector(".share")!.textContent = `${shares} %`;
+}

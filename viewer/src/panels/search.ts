@@ -1,0 +1,101 @@
+// The search: the materials whose names have all the words, to be chosen by key or by pointer.
+
+import type { Context } from "../context";
+import { el } from "../dom";
+import { clamp } from "../numbers";
+
+/** So many are listed; more is typed sooner than looked through. */
+const MOST = 40;
+
+export function search(context: Context): HTMLElement {
+  return new Search(context).element;
+}
+
+class Search {
+  readonly element: HTMLElement;
+  // Another explorer of the same document has another list.
+  private readonly id = `results-${Math.random().toString(36).slice(2)}`;
+  private readonly list = el("ul.results", { id: this.id, role: "listbox", hidden: true });
+  private readonly input: HTMLInputElement;
+  private matches: readonly string[] = [];
+  private selected = 0;
+
+  constructor(private readonly context: Context) {
+    this.input = el("input.field", {
+      name: "search",
+      type: "search",
+      placeholder: `Search ${context.names.length} materials`,
+      autocomplete: "off",
+      spellcheck: "false",
+      role: "combobox",
+      "aria-label": "Search materials",
+      "aria-controls": this.id,
+      "aria-expanded": "false",
+      oninput: () => this.update(),
+      onfocus: () => this.update(),
+      onblur: () => this.close(),
+      onkeydown: (event) => this.press(event),
+    });
+    this.element = el("div.search", this.input, el("kbd", "/"), this.list);
+  }
+
+  private press(event: KeyboardEvent): void {
+    if (event.key === "ArrowDown") this.mark(this.selected + 1);
+    else if (event.key === "ArrowUp") this.mark(this.selected - 1);
+    else if (event.key === "Enter") this.choose(this.matches[this.selected]);
+    else if (event.key === "Escape") this.input.blur();
+    else return;
+    event.preventDefault();
+  }
+
+  private update(): void {
+    const words = this.input.value
+      .toLowerCase()
+      .split(/[\s-]+/)
+      .filter(Boolean);
+    const all = this.context.names.filter((name) => words.every((word) => name.toLowerCase().includes(word)));
+    this.context.store.set({ matches: words.length ? all : null });
+    this.open(words.length > 0);
+    this.matches = all.slice(0, MOST);
+    const items = this.matches.map((name, i) => this.item(name, i));
+    this.list.replaceChildren(...(items.length ? items : [el("li.line.none", "No material of this name")]));
+    this.mark(0);
+  }
+
+  private item(name: string, i: number): HTMLElement {
+    const onpointerdown = (event: Event) => {
+      event.preventDefault();
+      this.choose(name);
+    };
+    const picture = this.context.thumbnails.canvas(name);
+    return el("li.line", { role: "option", id: `${this.id}-${i}`, onpointerdown }, picture, name);
+  }
+
+  private mark(i: number): void {
+    this.selected = clamp(i, 0, Math.max(this.matches.length - 1, 0));
+    [...this.list.children].forEach((item, j) => {
+      item.setAttribute("aria-selected", String(j === this.selected));
+      if (j === this.selected) item.scrollIntoView({ block: "nearest" });
+    });
+    const marked = this.matches.length ? `${this.id}-${this.selected}` : "";
+    this.input.setAttribute("aria-activedescendant", marked);
+    if (!this.list.hidden) this.context.store.set({ hovered: this.matches[this.selected] ?? null });
+  }
+
+  private open(isOpen: boolean): void {
+    this.list.hidden = !isOpen;
+    this.input.setAttribute("aria-expanded", String(isOpen));
+  }
+
+  private close(): void {
+    this.open(false);
+    this.context.store.set({ matches: null, hovered: null });
+  }
+
+  private choose(name: string | undefined): void {
+    if (name === undefined) return;
+    this.context.actions.choose(name);
+    this.input.value = "";
+    this.input.blur();
+  }
+}

@@ -1,0 +1,244 @@
+// The space: where each material is, what is between them, and the route.
+
+import type { Vector3 } from "three";
+
+import type { Context } from "../../context";
+import { coordinatesIn, hasPoints, pointOf, withCoordinates } from "../../coordinates";
+import { el, onResize, segments, style } from "../../dom";
+import { paced } from "../../paced";
+import { recipeAt, weightIn } from "../../recipe";
+import { Appearance } from "../../render/appearance";
+import { Cloud } from "../../render/cloud";
+import { CoordinateMap } from "../../render/maps";
+import type { State } from "../../state";
+import { turnOnKeys } from "../material/orbit";
+import { Labels } from "./labels";
+import { listenToPointer, type Pointer } from "./pointer";
+import { shelf } from "./shelf";
+
+const APPEARANCE = "Looks";
+/** Milliseconds between drawings: what moves is the material, and this stands beside it. */
+const BESIDE = 60;
+const ROUTE_POINTS = 160;
+/** How near the pointer has to be to take the present material, in CSS pixels. */
+const MARKER = 11;
+
+export function spacePanel(context: Context): HTMLElement {
+  const canvas = el("canvas.view.cloud", {
+    tabindex: 0,
+    role: "img",
+    "aria-label": "The materials as points; Alt and an arrow turn them, and the search reaches them all",
+  });
+  const panel = el("section.panel.space", { "aria-label": "Space" }, canvas);
+  let cloud: Cloud;
+  try {
+    cloud = new Cloud(canvas, context.names, context.thumbnails);
+  } catch {
+    canvas.hidden = true;
+    const reason = "The space itself needs WebGL2, which this browser does not have.";
+    const title = el("div.line.overlay.top", el("h2", "Space"));
+    panel.append(title, shelf(context), el("p.tag.reason", { role: "status" }, reason));
+    return panel;
+  }
+  panel.append(...new SpacePicture(context, cloud, canvas).overlays);
+  return panel;
+}
+
+class SpacePicture {
+  readonly overlays: readonly HTMLElement[];
+  private readonly labels = new Labels();
+  private readonly note = el("span.note");
+  private readonly maps = el("div.maps");
+  private readonly appearance: Appearance;
+  /** The name of the map that is chosen. */
+  private chosen = APPEARANCE;
+  /** Where the present material is. */
+  private here: Vector3 | null = null;
+  /** Where a person pointed, when no mix is there. */
+  private asked: Vector3 | null = null;
+  private readonly draw = paced(() => this.drawNow(), BESIDE);
+
+  constructor(
+    private readonly context: Context,
+    private readonly cloud: Cloud,
+    private readonly canvas: HTMLCanvasElement,
+  ) {
+    const { store, signal, names, thumbnails } = context;
+    this.appearance = new Appearance(names, thumbnails);
+    this.overlays = [
+      this.labels.element,
+      el("div.line.overlay.top", el("h2", "Space"), this.maps),
+      el("div.line.overlay.bottom", this.note),
+    ];
+    signal.addEventListener("abort", () => cloud.dispose());
+    cloud.controls.addEventListener("change", this.draw);
+    canvas.addEventListener("webglcontextrestored", this.draw);
+    turnOnKeys(canvas, (azimuth, elevation) => cloud.turn(azimuth, elevation));
+    listenToPointer(canvas, this.pointer());
+    onResize(canvas, (width, height, ratio) => {
+      cloud.resize(width, height, ratio);
+      // At once, so that the panel is not empty for a frame.
+      this.drawNow();
+    });
+    store.watch(["scheme"], () => this.paint());
+    store.watch(["view"], () => this.offer());
+    store.watch(["route"], () => this.traceRoute());
+    store.watch(["recipe", "atPoint"], () => this.putRecipe());
+    store.watch(["stops", "hovered", "matches"], (state) => this.dress(state));
+  }
+
+  private get embedding() {
+    return this.context.store.get().view?.embeddings.find(({ name }) => name === this.chosen);
+  }
+
+  /** The maps that the space has. */
+  private offer(): void {
+    const embeddings = this.context.store.get().view?.embeddings ?? [];
+    const options = [APPEARANCE, ...embeddings.map(({ name }) => name)];
+    if (!options.includes(this.chosen)) this.chosen = APPEARANCE;
+    const { element, mark } = segments(
+      "Map",
+      options.map((name) => [name]),
+      (map) => {
+        this.chosen = map;
+        mark(map);
+        this.arrange();
+      },
+    );
+    mark(this.chosen);
+    this.maps.replaceChildren(element);
+    this.arrange();
+  }
+
+  private arrange(): void {
+    const { embedding } = this;
+    const map = embedding ? new CoordinateMap(embedding, this.context.names) : this.appearance;
+    this.cloud.arrange(map, embedding?.edges ?? []);
+    this.traceRoute();
+    this.putRecipe();
+    this.describe();
+  }
+
+  private describe(): void {
+    const { atPoint } = this.context.store.get();
+    const axes = this.embedding?.axes;
+    if (atPoint !== null && !atPoint.inside)
+      this.note.textContent = "no mix is at the ring: the dot is the nearest";
+    else this.note.textContent = axes ? `${axes.join(", ")}; quantile scales` : "close together: look alike";
+  }
+
+  private traceRoute(): void {
+    const { route } = this.context.store.get();
+    const { map } = this.cloud;
+    if (route === null || map === null) return;
+    const even = Array.from({ length: ROUTE_POINTS + 1 }, (_, i) => i / ROUTE_POINTS);
+    const ts = [...new Set([...route.knots, ...even])].sort((a, b) => a - b);
+    const points = (all: readonly number[]) => all.map((t) => map.pointOf(recipeAt(route, t)));
+    this.cloud.setRoute(points(ts), points(route.crossings));
+    this.draw();
+  }
+
+  /** The present material, and lines: between its ingredients in a space, from it to them among looks. */
+  private putRecipe(): void {
+    const { map } = this.cloud;
+    const { recipe } = this.context.store.get();
+    if (map === null || recipe.length === 0) return;
+    const { embedding } = this;
+    const corners = recipe
+      .filter((ingredient) => embedding === undefined || weightIn(ingredient, embedding.channel) > 0)
+      .map(({ name }) => map.points[this.context.names.indexOf(name)]!);
+    const here = map.pointOf(recipe);
+    this.here = here;
+    this.asked = this.outside();
+    this.cloud.setIngredients(embedding ? pairs(corners) : corners.map((corner) => [here, corner]));
+    this.describe();
+    this.draw();
+  }
+
+  /** Where a person pointed, on this map; null when a mix is there. */
+  private outside(): Vector3 | null {
+    const { view, point, atPoint } = this.context.store.get();
+    const { map } = this.cloud;
+    if (!view || !point || !atPoint || atPoint.inside || !(map instanceof CoordinateMap)) return null;
+    return map.pointAt(coordinatesIn(view, point, this.chosen));
+  }
+
+  private dress({ stops, hovered, matches }: State): void {
+    const [stopped, hits] = [new Set(stops), matches && new Set(matches)];
+    this.cloud.setLooks(
+      this.context.names.map((name) => ({
+        ring: name === hovered ? "hovered" : stopped.has(name) ? "stop" : "none",
+        dim: hits !== null && !hits.has(name),
+      })),
+    );
+    this.draw();
+  }
+
+  private paint(): void {
+    const [text, accent, panel] = ["--text", "--accent", "--panel"].map((name) =>
+      style(this.context.root, name),
+    );
+    this.cloud.setColours(text!, accent!, panel!);
+    this.draw();
+  }
+
+  private drawNow(): void {
+    this.cloud.draw();
+    const { map } = this.cloud;
+    if (map === null) return;
+    const { stops, hovered } = this.context.store.get();
+    const named = [...new Set([...(hovered ? [hovered] : []), ...stops])].map((name) => ({
+      name,
+      point: map.points[this.context.names.indexOf(name)]!,
+      isHovered: name === hovered,
+    }));
+    this.labels.draw(this.cloud, this.canvas.clientWidth, named, this.here, this.asked);
+  }
+
+  private pointer(): Pointer {
+    const { cloud, canvas } = this;
+    const { store, actions, names } = this.context;
+    return {
+      hover: (x, y) => {
+        const i = cloud.pick(x, y);
+        canvas.style.cursor = this.isAtMarker(x, y) ? "move" : i === null ? "" : "pointer";
+        store.set({ hovered: i === null ? null : names[i]! });
+      },
+      grab: (x, y) => {
+        cloud.controls.enabled = !this.isAtMarker(x, y);
+        return !cloud.controls.enabled;
+      },
+      drag: (x, y) => this.drag(x, y),
+      release: () => {
+        cloud.controls.enabled = true;
+      },
+      leave: () => store.set({ hovered: null }),
+      click: (x, y) => {
+        const i = cloud.pick(x, y);
+        if (i !== null) actions.choose(names[i]!);
+      },
+    };
+  }
+
+  /** Whether the pointer is at the present material, which can be dragged. */
+  private isAtMarker(x: number, y: number): boolean {
+    const { cloud, here } = this;
+    if (here === null || !(cloud.map instanceof CoordinateMap)) return false;
+    const at = cloud.project(here);
+    return hasPoints(this.context.store.get().view) && Math.hypot(at.x - x, at.y - y) <= MARKER;
+  }
+
+  private drag(x: number, y: number): void {
+    const { store, actions, names } = this.context;
+    const { view, recipe, point } = store.get();
+    const { map } = this.cloud;
+    if (!(map instanceof CoordinateMap) || view === null || this.here === null) return;
+    const coordinates = map.coordinatesAt(this.cloud.unproject(x, y, this.here));
+    actions.goTo(withCoordinates(view, point ?? pointOf(view, names, recipe), this.chosen, coordinates));
+  }
+}
+
+/** Each two of them. */
+function pairs<T>(items: readonly T[]): (readonly [T, T])[] {
+  return items.flatMap((a, i) => items.slice(i + 1).map((b) => [a, b] as const));
+}
