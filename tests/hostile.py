@@ -3,16 +3,14 @@
 Whatever the bytes, a reader gives what it reads or raises a `HalfwayError` of one line.
 """
 
-import io
 import json
-import zipfile
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
-import h5py
 import numpy as np
 from exr_files import exr
+from written_files import keras, nbrdf_layers, zipped
 
 from halfway import Brdf, Grid, TabularBrdf
 from halfway.errors import RenderError
@@ -238,24 +236,15 @@ def _tensors(folder: Path, fields: dict[str, np.ndarray]) -> bytes:
 
 
 def _nbrdf() -> bytes:
-    rng = np.random.default_rng(0)
-    content = io.BytesIO()
-    with h5py.File(content, "w") as file:
-        names = [b"dense", b"dense_1", b"dense_2"]
-        file.attrs["layer_names"] = names
-        for name, (n_in, n_out) in zip(names, [(6, 21), (21, 21), (21, 3)], strict=True):
-            group: Any = file.create_group(name.decode())
-            group.attrs["weight_names"] = [name + b"/kernel:0", name + b"/bias:0"]
-            inner = group.create_group(name.decode())
-            inner["kernel:0"] = rng.normal(size=(n_in, n_out)).astype(np.float32)
-            inner["bias:0"] = np.zeros(n_out, np.float32)
-    return content.getvalue()
+    names = ("dense", "dense_1", "dense_2")
+    return keras(nbrdf_layers(), order=names)
 
 
 def _zip(folder: Path) -> bytes:
-    content = io.BytesIO()
-    with zipfile.ZipFile(content, "w", zipfile.ZIP_DEFLATED) as archive:
-        archive.writestr("brdfs/clay.binary", (folder / "tables" / "clay.binary").read_bytes())
-        archive.writestr("chalk.bsdf", _tensors(folder, _rgl()))
-        archive.writestr("slate.h5", _nbrdf())
-    return content.getvalue()
+    return zipped(
+        {
+            "brdfs/clay.binary": (folder / "tables" / "clay.binary").read_bytes(),
+            "chalk.bsdf": _tensors(folder, _rgl()),
+            "slate.h5": _nbrdf(),
+        }
+    )

@@ -24,10 +24,23 @@ def directions(draw: st.DrawFn, max_degrees: float = 89.0) -> np.ndarray:
 def points(n: int, k: int) -> st.SearchStrategy[np.ndarray]:
     """``n`` points in ``k`` dimensions, some of them on a coarse lattice: coincident, collinear, coplanar."""
     lattice = hnp.arrays(np.float64, (n, k), elements=st.integers(-3, 3).map(float))
-    general = st.integers(0, 2**32 - 1).map(
-        lambda seed: np.random.default_rng(seed).normal(size=(n, k))
+    return lattice | points_in_general_position(n, k)
+
+
+def points_in_general_position(n: int, k: int) -> st.SearchStrategy[np.ndarray]:
+    """``n`` points in ``k`` dimensions with one triangulation: normal deviates, of which no k + 2 lie on a sphere."""
+    seeds = st.integers(0, 2**32 - 1)
+    return seeds.map(lambda seed: np.random.default_rng(seed).normal(size=(n, k)))
+
+
+def distinct_points(n: int, k: int) -> st.SearchStrategy[np.ndarray]:
+    """``n`` points that span ``k`` dimensions, none at the place of another; on a coarse lattice or in general position."""
+    places = st.tuples(*[st.integers(-3, 3)] * k)
+    lattice = st.lists(places, min_size=n, max_size=n, unique=True).map(
+        lambda x: np.array(x, float)
     )
-    return lattice | general
+    spanning = lattice.filter(lambda x: np.linalg.matrix_rank(x - x.mean(axis=0)) == k)
+    return spanning | points_in_general_position(n, k)
 
 
 def convex_weights(n: int) -> st.SearchStrategy[np.ndarray]:

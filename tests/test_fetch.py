@@ -4,7 +4,7 @@ import hashlib
 
 import pytest
 from faulty_server import BODY, MD5, NAME, good, serving
-from test_unpack import zipped
+from written_files import zipped
 
 from halfway.errors import FetchError
 from halfway.fetch import catalogue, dataset, fetch, rgl_names

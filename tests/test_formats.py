@@ -6,29 +6,27 @@ import zipfile
 
 import numpy as np
 import pytest
-from test_merl import GRID, content
-from test_nbrdf import encode, weights
+from written_files import MERL_SHAPE, keras, merl, nbrdf_layers
 
 from halfway import TabularBrdf
 from halfway.errors import FormatError, LibraryError
 from halfway.formats import NeuralBrdf, Skipped, find_brdfs, read_brdf
+from halfway.halfdiff import Grid
 from halfway.models import builtin
 
-
-def merl(value: float) -> bytes:
-    return content(np.full(72, value))
+GRID = Grid.merl(*MERL_SHAPE)
 
 
 @pytest.fixture
 def folder(tmp_path):
     """A download as people have it: materials, licences, leftovers."""
     files = {
-        "silver.h5": encode(weights()),
-        "brdfs/gold.binary": merl(1500),
-        "brdfs/bronze.dat": merl(3000),
+        "silver.h5": keras(nbrdf_layers()),
+        "brdfs/gold.binary": merl(np.full(72, 1500.0)),
+        "brdfs/bronze.dat": merl(np.full(72, 3000.0)),
         "brdfs/README.txt": ("R" + 600 * "é").encode(),
-        "brdfs/.hidden.binary": merl(1),
-        "brdfs/cut.binary": merl(1)[:92],
+        "brdfs/.hidden.binary": merl(np.full(72, 1.0)),
+        "brdfs/cut.binary": merl(np.full(72, 1.0))[:92],
         "empty.binary": b"",
         "table.npy": b"\x93NUMPY" + bytes(100),
         "noise.bin": bytes(range(128, 256)),
@@ -85,7 +83,7 @@ class TestMany:
 
     def test_checksums_are_those_of_the_bytes(self, request, source):
         gold = find_brdfs([request.getfixturevalue(source)])[0][1]
-        assert gold.sha256 == hashlib.sha256(merl(1500)).hexdigest()
+        assert gold.sha256 == hashlib.sha256(merl(np.full(72, 1500.0))).hexdigest()
 
 
 def test_sources_say_where_a_material_is(folder, archive):
@@ -110,7 +108,7 @@ def test_sources_keep_their_order_and_may_be_single_files_and_built_in_sets(fold
 
 def test_materials_are_sorted_by_name_not_by_file_name(tmp_path):
     for name in ("red-paint-2", "red-paint", "red-paint2"):  # "-" sorts before the "." of a suffix
-        (tmp_path / f"{name}.binary").write_bytes(content())
+        (tmp_path / f"{name}.binary").write_bytes(merl())
     found, _ = find_brdfs([tmp_path])
     assert [item.name for item in found] == ["red-paint", "red-paint-2", "red-paint2"]
 
@@ -158,7 +156,7 @@ def test_a_pipe_in_a_folder_is_not_waited_for(folder):
 
 def test_a_folder_is_looked_through_without_reading_the_samples(folder):
     with (folder / "large.binary").open("wb") as file:
-        file.write(content(sizes=(3000, 3000, 3000))[:12])
+        file.write(merl(sizes=(3000, 3000, 3000))[:12])
         file.truncate(12 + 24 * 3000**3)  # 648 GB, on paper
     found, _ = find_brdfs([folder])
     assert found[-2].name == "large"
@@ -167,12 +165,12 @@ def test_a_folder_is_looked_through_without_reading_the_samples(folder):
 def test_a_bomb_in_a_zip_is_not_unpacked(tmp_path):
     path = tmp_path / "bomb.zip"
     with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
-        archive.writestr("gold.h5", encode(weights()))
-        archive.writestr("large.h5", encode(weights()) + bytes(2_000_000))
+        archive.writestr("gold.h5", keras(nbrdf_layers()))
+        archive.writestr("large.h5", keras(nbrdf_layers()) + bytes(2_000_000))
         archive.writestr("nested.zip", path.read_bytes())
     found, skipped = find_brdfs([path])
     assert [item.name for item in found] == ["gold"]
-    large = len(encode(weights())) + 2_000_000
+    large = len(keras(nbrdf_layers())) + 2_000_000
     assert reasons(skipped) == {
         "large.h5": f"is an HDF5 file of {large:,} bytes",
         "nested.zip": "is a zip",
@@ -189,7 +187,7 @@ def test_a_damaged_zip_is_one_line(archive):
 def test_a_damaged_member_is_one_line_when_it_is_loaded(tmp_path):
     path = tmp_path / "all.zip"
     with zipfile.ZipFile(path, "w") as archive:
-        archive.writestr("gold.binary", content(np.ones(3000), (10, 10, 10)))
+        archive.writestr("gold.binary", merl(np.ones(3000), (10, 10, 10)))
     data = bytearray(path.read_bytes())
     data[20_000] ^= 255  # a sample: the header is right, the checksum of the member is not
     path.write_bytes(data)

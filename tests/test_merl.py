@@ -1,13 +1,12 @@
 """MERL tables: a hand-made file first, then round trips, then every way in which a file can be wrong."""
 
-import struct
-
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from numpy.testing import assert_array_equal
+from written_files import MERL_SHAPE, merl
 
 from halfway import MERL, Grid, TabularBrdf
 from halfway.errors import FormatError, OutputError
@@ -15,18 +14,12 @@ from halfway.formats import MerlFile, encode_header, read_merl, write_merl, writ
 from halfway.formats.merl import SCALES
 from halfway.halfdiff import Axis
 
-SHAPE = (2, 3, 4)
-GRID = Grid.merl(*SHAPE)
+GRID = Grid.merl(*MERL_SHAPE)
 N_BYTES = 12 + 8 * 3 * 2 * 3 * 4  # 588
 
 shapes = st.tuples(*[st.integers(1, 4)] * 3)
 stored = st.floats(allow_nan=False, allow_infinity=False)  # any double, -0.0 and subnormals too
 measured = st.floats(0, 1e6, width=32) | st.just(float("nan"))
-
-
-def content(samples=None, sizes=SHAPE) -> bytes:
-    samples = np.arange(72.0) if samples is None else samples
-    return struct.pack("<3i", *sizes) + np.asarray(samples, "<f8").tobytes()
 
 
 @pytest.fixture
@@ -36,20 +29,20 @@ def path(tmp_path):
 
 class TestByHand:
     def test_a_sample_of_1500_is_one_per_steradian_times_the_channels_scale(self, path):
-        path.write_bytes(content(np.full(72, 1500.0)))
+        path.write_bytes(merl(np.full(72, 1500.0)))
         table = read_merl(path)
         assert table.name == "gold-paint"
         assert table.grid == GRID
         assert_array_equal(table.values[:, 0, 0, 0], np.float32([1.0, 1.15, 1.66]))
 
     def test_samples_run_over_channel_theta_h_theta_d_phi_d(self, path):
-        path.write_bytes(content())
+        path.write_bytes(merl())
         assert MerlFile.read(path).samples[2, 1, 0, 3] == 2 * 24 + 1 * 12 + 0 * 4 + 3
 
     def test_negative_samples_are_unmeasured_and_written_as_minus_one(self, path):
         samples = np.ones(72)
         samples[[0, 30, 71]] = -1, -0.5, -1e300
-        path.write_bytes(content(samples))
+        path.write_bytes(merl(samples))
         table = read_merl(path)
         assert_array_equal(np.flatnonzero(np.isnan(table.values)), [0, 30, 71])
         assert_array_equal(MerlFile.from_table(table).samples.ravel()[[0, 30, 71]], -1)
@@ -58,12 +51,12 @@ class TestByHand:
         assert encode_header(MERL) == b"\x5a\0\0\0\x5a\0\0\0\xb4\0\0\0"
 
     def test_samples_are_written_as_they_are(self, path):
-        write_samples(path, GRID, np.arange(72.0).reshape(3, *SHAPE))
-        assert path.read_bytes() == content()
+        write_samples(path, GRID, np.arange(72.0).reshape(3, *MERL_SHAPE))
+        assert path.read_bytes() == merl()
 
     def test_samples_in_another_memory_order_are_written_in_the_files(self, path):
-        write_samples(path, GRID, np.asfortranarray(np.arange(72.0).reshape(3, *SHAPE)))
-        assert path.read_bytes() == content()
+        write_samples(path, GRID, np.asfortranarray(np.arange(72.0).reshape(3, *MERL_SHAPE)))
+        assert path.read_bytes() == merl()
 
 
 @given(st.data(), shapes)
@@ -73,7 +66,7 @@ def test_reading_and_writing_gives_the_same_bytes_whatever_the_samples(
     samples = data.draw(arrays("<f8", (3, *shape), elements=stored))
     folder = tmp_path_factory.mktemp("round-trip")
     before, after = folder / "before.binary", folder / "after.binary"
-    before.write_bytes(content(samples, shape))
+    before.write_bytes(merl(samples, shape))
     MerlFile.read(before).write(after)
     assert after.read_bytes() == before.read_bytes()
 
@@ -98,19 +91,19 @@ def test_the_scales_are_those_of_the_database():
 def _with(position: int, value: float) -> bytes:
     samples = np.ones(72)
     samples[position] = value
-    return content(samples)
+    return merl(samples)
 
 
 WRONG = {
     "truncated": (
-        content()[:92],
+        merl()[:92],
         (
             "gold-paint.binary is 496 bytes shorter than its header says: a 2 x 3 x 4 RGB table takes 588 bytes, this file "
             "has 92. It is probably truncated; compare it with the original download."
         ),
     ),
     "too long": (
-        content() + b"12345678",
+        merl() + b"12345678",
         (
             "gold-paint.binary is 8 bytes longer than its header says: a 2 x 3 x 4 RGB table takes 588 bytes, this file "
             "has 596. It is probably damaged, or holds something else as well; compare it with the original download."
@@ -131,21 +124,21 @@ WRONG = {
         ),
     ),
     "negative size": (
-        content(sizes=(2, -3, 4)),
+        merl(sizes=(2, -3, 4)),
         (
             "gold-paint.binary states a negative size, 2 x -3 x 4: expected three positive sizes, 90 x 90 x 180 in the "
             "database. It is damaged, or no MERL table."
         ),
     ),
     "zero size": (
-        content(sizes=(2, 3, 0)),
+        merl(sizes=(2, 3, 0)),
         (
             "gold-paint.binary states a zero size, 2 x 3 x 0: expected three positive sizes, 90 x 90 x 180 in the "
             "database. It is damaged, or no MERL table."
         ),
     ),
     "absurd size": (
-        content(sizes=(2**31 - 1, 2**31 - 1, 2**31 - 1)),
+        merl(sizes=(2**31 - 1, 2**31 - 1, 2**31 - 1)),
         (
             "gold-paint.binary states an absurd size, 2147483647 x 2147483647 x 2147483647: that takes "
             "237,684,487,210,751,619,608,478,744,564 bytes, this file has 588. "
@@ -200,7 +193,7 @@ def test_a_sample_beyond_float32_is_not_made_infinite(path):
 
 @pytest.mark.parametrize(("value", "what"), [(-0.25, "negative"), (np.inf, "infinite")])
 def test_a_table_that_a_file_cannot_hold_is_not_written(path, value, what):
-    values = np.ones((3, *SHAPE), np.float32)
+    values = np.ones((3, *MERL_SHAPE), np.float32)
     values[1, 0, 2, 3] = value
     with pytest.raises(OutputError, match=f"gold has 1 {what} values"):
         write_merl(path, TabularBrdf(values, GRID, name="gold"))

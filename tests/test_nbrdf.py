@@ -9,37 +9,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose, assert_array_equal
+from written_files import NBRDF_SHAPES, keras, nbrdf_layers
 
 from halfway import MERL, Grid, build_library, from_half_diff, open_library, to_half_diff
 from halfway.errors import FormatError
 from halfway.formats import NeuralBrdf, read_nbrdf, read_nbrdf_archive
 from halfway.library import Origin
 
-SHAPES = [(6, 21), (21,), (21, 21), (21,), (21, 3), (3,)]
 TINY = Grid.merl(5, 6, 8)
-
-
-def weights(seed: int = 0) -> list[np.ndarray]:
-    rng = np.random.default_rng(seed)
-    return [rng.normal(0, 0.5, shape).astype(np.float32) for shape in SHAPES]
-
-
-def encode(layers: list[np.ndarray], *, order=("a", "b", "c"), omit: str = "") -> bytes:
-    """An HDF5 file as Keras writes it; layers lie in it by name, and ``order`` says which comes when."""
-    buffer = io.BytesIO()
-    with h5py.File(buffer, "w") as file:
-        file.attrs["layer_names"] = [name.encode() for name in (*order, "lambda")]
-        file.create_group("lambda").attrs["weight_names"] = np.array([])
-        for layer, (kernel, bias) in zip(
-            order, zip(layers[::2], layers[1::2], strict=True), strict=True
-        ):
-            names = [f"{layer}/kernel:0", f"{layer}/bias:0"]
-            group = file.create_group(layer)
-            group.attrs["weight_names"] = [name.encode() for name in names]
-            for name, weight in zip(names, (kernel, bias), strict=True):
-                if name != omit:
-                    group[name] = weight
-    return buffer.getvalue()
 
 
 def dense(layers: list[np.ndarray], wi: np.ndarray, wo: np.ndarray) -> np.ndarray:
@@ -69,7 +46,7 @@ def close(actual, expected):
 
 
 def test_a_network_of_biases_alone_is_a_constant():
-    layers = [np.zeros(shape, np.float32) for shape in SHAPES]
+    layers = [np.zeros(shape, np.float32) for shape in NBRDF_SHAPES]
     layers[5][:] = np.log([1.5, 1.0, 0.5])
     wi, wo = pairs(4)
     assert_allclose(NeuralBrdf(*layers).eval(wi, wo), np.tile([0.5, 0, 0], (4, 1)), atol=1e-6)
@@ -77,40 +54,40 @@ def test_a_network_of_biases_alone_is_a_constant():
 
 @given(st.integers(0, 10_000))
 def test_values_are_those_of_the_network_applied_layer_by_layer(seed):
-    layers, (wi, wo) = weights(seed), pairs(20, seed + 1)
-    close(read_nbrdf(encode(layers)).eval(wi, wo), dense(layers, wi, wo))
+    layers, (wi, wo) = nbrdf_layers(seed), pairs(20, seed + 1)
+    close(read_nbrdf(keras(layers)).eval(wi, wo), dense(layers, wi, wo))
 
 
 def test_samples_on_a_grid_are_the_networks_values_at_its_cell_centres():
-    layers = weights()
+    layers = nbrdf_layers()
     expected = np.moveaxis(dense(layers, *from_half_diff(TINY.centres())), -1, 0)
     samples = NeuralBrdf(*layers).sample_rows(TINY, slice(1, 4))
     close(samples, np.where(TINY.mask(), expected, np.nan)[:, 1:4])
 
 
 def test_the_order_of_the_layers_is_the_files_own_not_the_alphabets():
-    network = read_nbrdf(encode(weights(), order=("z", "m", "a")))
-    assert_array_equal(network.W1, weights()[0])
-    assert_array_equal(network.b3, weights()[5])
+    network = read_nbrdf(keras(nbrdf_layers(), order=("z", "m", "a")))
+    assert_array_equal(network.W1, nbrdf_layers()[0])
+    assert_array_equal(network.b3, nbrdf_layers()[5])
 
 
 def test_a_path_and_its_bytes_give_the_same_network(tmp_path):
     path = tmp_path / "gold.h5"
-    path.write_bytes(encode(weights()))
+    path.write_bytes(keras(nbrdf_layers()))
     assert read_nbrdf(path).fingerprint() == read_nbrdf(path.read_bytes()).fingerprint()
-    assert read_nbrdf(path).fingerprint() != read_nbrdf(encode(weights(1))).fingerprint()
+    assert read_nbrdf(path).fingerprint() != read_nbrdf(keras(nbrdf_layers(1))).fingerprint()
 
 
 class TestArchive:
     def test_is_read_in_memory_by_name(self, tmp_path):
         path = tmp_path / "all.zip"
         with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
-            archive.writestr("fits/silver.h5", encode(weights(1)))
-            archive.writestr("fits/gold.h5", encode(weights(2)))
+            archive.writestr("fits/silver.h5", keras(nbrdf_layers(1)))
+            archive.writestr("fits/gold.h5", keras(nbrdf_layers(2)))
             archive.writestr("fits/gold.json", "{}")
         networks = read_nbrdf_archive(path).models
         assert list(networks) == ["gold", "silver"]
-        assert_array_equal(networks["silver"].W2, weights(1)[2])
+        assert_array_equal(networks["silver"].W2, nbrdf_layers(1)[2])
         assert list(tmp_path.iterdir()) == [path]
 
     def test_a_library_of_it_says_where_it_comes_from(self, tmp_path):
@@ -140,21 +117,21 @@ class TestArchive:
 
     def test_that_is_no_zip_is_an_error(self, tmp_path):
         path = tmp_path / "all.zip"
-        path.write_bytes(encode(weights()))
+        path.write_bytes(keras(nbrdf_layers()))
         with pytest.raises(FormatError, match=r"all\.zip is no zip: expected"):
             read_nbrdf_archive(path)
 
 
 def _reshaped() -> bytes:
-    layers = weights()
+    layers = nbrdf_layers()
     layers[0], layers[4] = layers[0][:5], layers[4][:, :1]
-    return encode(layers)
+    return keras(layers)
 
 
 def _not_finite() -> bytes:
-    layers = weights()
+    layers = nbrdf_layers()
     layers[2][3, 4] = np.nan
-    return encode(layers)
+    return keras(layers)
 
 
 def _nameless() -> bytes:
@@ -186,7 +163,7 @@ WRONG = {
         "gold.h5 has weights that are not finite: expected finite numbers. It is damaged, or was not trained.",
     ),
     "integers": (
-        encode([w.astype(np.int32) for w in weights()]),
+        keras([w.astype(np.int32) for w in nbrdf_layers()]),
         (
             "gold.h5 is no HDF5 as Keras writes it (an array holds something else than little-endian float32 or float64): "
             "expected the weights of a neural BRDF. Compare it with the original download."
@@ -204,7 +181,11 @@ def test_a_wrong_file_gets_its_own_line(wrong, message):
 
 @pytest.mark.parametrize(
     "damaged",
-    [encode(weights(), omit="b/kernel:0"), encode(weights())[:5000], encode(weights())[:40]],
+    [
+        keras(nbrdf_layers(), omit="b/kernel:0"),
+        keras(nbrdf_layers())[:5000],
+        keras(nbrdf_layers())[:40],
+    ],
     ids=["a weight is missing", "cut in the middle", "cut in the header"],
 )
 def test_a_damaged_file_is_one_line(damaged):
@@ -218,7 +199,7 @@ def test_a_damaged_file_is_one_line(damaged):
 def test_a_file_too_large_for_a_network_is_not_read(tmp_path):
     path = tmp_path / "gold.h5"
     with path.open("wb") as file:
-        file.write(encode(weights()))
+        file.write(keras(nbrdf_layers()))
         file.truncate(5_000_000)
     with pytest.raises(
         FormatError, match=r"gold\.h5 is an HDF5 file of 5,000,000 bytes: a neural BRDF takes"

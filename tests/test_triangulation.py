@@ -1,14 +1,12 @@
 """The triangulation and the way of a line through it: by hand, against scipy, and where points are degenerate."""
 
-import warnings
-
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 from scipy.spatial import Delaunay
-from strategies import convex_weights, points
+from strategies import convex_weights, distinct_points, points
 
 from halfway.components import Pca
 from halfway.errors import DegenerateSpaceWarning, OutsideHullError
@@ -17,12 +15,6 @@ from halfway.space.walk import DelaunayWalk
 
 SQUARE = np.array([[0.0, 0], [2, 0], [2, 2], [0, 2], [1, 1]])
 """A square and its centre: four triangles."""
-
-
-def quietly(x: np.ndarray) -> Triangulation:
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", DegenerateSpaceWarning)
-        return Triangulation.of(x)
 
 
 def at(path, t):
@@ -63,10 +55,11 @@ def test_weights_are_scipys(k):
         assert_allclose(ours.weights(inside), expected, atol=1e-9)
 
 
+@pytest.mark.filterwarnings("ignore::halfway.errors.DegenerateSpaceWarning")
 @given(st.integers(1, 4).flatmap(lambda k: st.tuples(points(12, k), convex_weights(12))))
 def test_weights_are_convex_and_give_the_point(drawn):
     x, w = drawn
-    triangulation = quietly(x)
+    triangulation = Triangulation.of(x)
     inside = w @ x
     found = triangulation.weights(inside)
     assert found.min() >= 0
@@ -74,9 +67,10 @@ def test_weights_are_convex_and_give_the_point(drawn):
     assert_allclose(found @ x, inside, atol=1e-7 * (1 + np.abs(x).max()))
 
 
+@pytest.mark.filterwarnings("ignore::halfway.errors.DegenerateSpaceWarning")
 @given(st.integers(1, 4).flatmap(lambda k: points(10, k)), st.integers(0, 9), st.integers(0, 9))
 def test_a_path_is_convex_exact_at_its_ends_and_on_the_line(x, start, stop):
-    path = quietly(x).way(start, stop)
+    path = Triangulation.of(x).way(start, stop)
     t = np.linspace(0, 1, 33)
     weights = at(path, t)
     np.testing.assert_array_equal(weights[[0, -1]], np.eye(10)[[start, stop]])
@@ -86,12 +80,10 @@ def test_a_path_is_convex_exact_at_its_ends_and_on_the_line(x, start, stop):
     assert_allclose(weights @ x, line, atol=1e-7 * (1 + np.abs(x).max()))
 
 
-@given(points(10, 3), st.integers(0, 9), st.integers(0, 9))
+@given(distinct_points(10, 3), st.integers(0, 9), st.integers(0, 9))
 def test_the_weights_of_a_path_are_those_of_its_points(x, start, stop):
     """The crossings, solved once, agree with locating every point by itself (where no points coincide)."""
-    if len(np.unique(x, axis=0)) < 10 or np.linalg.matrix_rank(x - x.mean(axis=0)) < 3:
-        return
-    triangulation = quietly(x)
+    triangulation = Triangulation.of(x)
     path = triangulation.way(start, stop)
     for t in (0.1, 0.37, 0.8):
         here = (1 - t) * x[start] + t * x[stop]
@@ -143,8 +135,9 @@ def test_flat_points_drop_a_dimension_and_say_so(x, n_dimensions):
     assert_allclose(at(path, 0.5) @ x, [(x[0] + x[1]) / 2], atol=1e-9)
 
 
+@pytest.mark.filterwarnings("ignore::halfway.errors.DegenerateSpaceWarning")
 def test_points_that_all_coincide_are_still_a_space():
-    triangulation = quietly(np.ones((4, 2)))
+    triangulation = Triangulation.of(np.ones((4, 2)))
     assert_allclose(
         at(triangulation.way(1, 3), [0, 0.5, 1]), [[0, 1, 0, 0], [0, 0.5, 0, 0.5], [0, 0, 0, 1]]
     )

@@ -1,22 +1,14 @@
 """Zips that came over the network: nothing in them is trusted."""
 
-import io
 import stat
 import zipfile
 
 import pytest
+from written_files import zipped
 
 from halfway.errors import FetchError
 from halfway.fetch.unpack import unpack
 from halfway.formats import find_brdfs
-
-
-def zipped(members):
-    content = io.BytesIO()
-    with zipfile.ZipFile(content, "w", zipfile.ZIP_DEFLATED) as archive:
-        for name, data in members.items():
-            archive.writestr(name, data)
-    return content.getvalue()
 
 
 @pytest.mark.parametrize(
