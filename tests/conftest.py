@@ -6,7 +6,7 @@ Shapes and dtypes in the package's annotations are checked while the tests run.
 from pathlib import Path
 
 import pytest
-from hypothesis import settings
+from hypothesis import HealthCheck, settings
 from jaxtyping import install_import_hook
 
 SOURCE = Path(__file__).parents[1] / "src"
@@ -23,7 +23,9 @@ from halfway.halfdiff import Grid  # noqa: E402 (after the hook)
 from halfway.library import ProceduralLibrary  # noqa: E402
 
 # On a busy machine a draw may take long; what a test may take is CI's business.
-settings.register_profile("halfway", deadline=None, max_examples=50)
+settings.register_profile(
+    "halfway", deadline=None, max_examples=50, suppress_health_check=[HealthCheck.too_slow]
+)
 settings.load_profile("halfway")
 
 SHARED_DATA = Path(__file__).parents[2] / "shared" / "data"

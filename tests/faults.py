@@ -17,9 +17,11 @@ import time
 from collections import Counter
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
+from functools import partial
 from pathlib import Path
 
 import pytest
+from patience import PATIENCE, wait_until
 
 from halfway.cluster import Cluster
 from halfway.errors import ClusterError, LibraryError
@@ -86,7 +88,7 @@ def kill_scheduler() -> str:
         for words in commands
     ]
     try:
-        _wait_for(port)
+        wait_until(lambda: _answers(port))
         with Cluster.at(address) as cluster:
             results = Work(engine=cluster).run(time.sleep, [0.05] * 100)
             next(results)
@@ -101,12 +103,11 @@ def kill_scheduler() -> str:
     return "nothing"
 
 
-def _wait_for(port: int) -> None:
-    while True:
-        with suppress(ConnectionRefusedError):
-            socket.create_connection(("127.0.0.1", port)).close()
-            return
-        time.sleep(0.05)
+def _answers(port: int) -> bool:
+    with suppress(ConnectionRefusedError):
+        socket.create_connection(("127.0.0.1", port)).close()
+        return True
+    return False
 
 
 def what_is_at(target: Path) -> str:
@@ -136,18 +137,22 @@ def interrupt_commands(
             stdout=subprocess.DEVNULL,
             text=True,
         )
-        while after and not any(folder.glob(after)) and process.poll() is None:
-            time.sleep(0.001)
+        if after:
+            wait_until(partial(_begun, process, folder, after))
         # The interpreter itself has to be up: what it does on a signal before is not ours.
         time.sleep(rng.uniform(0.0, 0.03) if after else rng.uniform(0.2, 0.9) * whole)
         with suppress(ProcessLookupError):
             process.send_signal(signal.SIGINT)
-        _, talk = process.communicate(timeout=60)
+        _, talk = process.communicate(timeout=PATIENCE)
         lines = len(talk.strip().splitlines())
         found[f"exit {process.returncode}, {lines} line{'s' if lines != 1 else ''}"] += 1
         if lines > 1:
             print(talk, file=sys.stderr)
     return found
+
+
+def _begun(process: subprocess.Popen[str], folder: Path, pattern: str) -> bool:
+    return any(folder.glob(pattern)) or process.poll() is not None
 
 
 def _seconds(folder: Path, words: list[str]) -> float:

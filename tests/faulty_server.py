@@ -22,6 +22,7 @@ class Server(ThreadingHTTPServer):
     def __init__(self, answers):
         super().__init__(("127.0.0.1", 0), Handler)
         self.answers = list(answers)
+        self.stopped = threading.Event()
         self.requests = []
 
     @property
@@ -111,7 +112,7 @@ def stall(handler):
     handler.begin(200, {"Content-Length": len(BODY)})
     handler.wfile.write(BODY[:100])
     handler.wfile.flush()
-    time.sleep(0.6)
+    handler.server.stopped.wait()
 
 
 def trickle(handler):
@@ -144,5 +145,6 @@ def serving(*answers):
     try:
         yield server
     finally:
+        server.stopped.set()
         server.shutdown()
         server.server_close()

@@ -1,17 +1,17 @@
 """Batches on real faults: killed, interrupted, on a full disk, in a folder that cannot be written."""
 
 import os
-import random
 import signal
 import subprocess
 import sys
-import time
 from contextlib import suppress
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 import pytest
 from batch_server import N
+from patience import PATIENCE, wait_until
 
 from halfway import Grid, LinearSpace, Route, TabularBrdf, build_library
 from halfway.batch import verify
@@ -21,7 +21,8 @@ from halfway.formats import write_merl
 from halfway.tasks import Work
 
 GRID = Grid.merl(24, 20, 40)
-N_KILLS = 10
+KILLED_AT = (0, 1, 3, 7, 12, 20)
+"""Files that are there when a batch is killed."""
 EXIT_130 = (130, -signal.SIGINT)
 """As a shell counts; Python ends itself by the signal where a compiled module saw it first."""
 USAGE = 2
@@ -72,34 +73,30 @@ class Server:
         )
         assert self.process.stdout.readline() == "ready\n"
 
-    def run(self, folder, *, kill_after=None):
-        """Run a batch, killing it after some seconds; gives how long it took."""
-        start = time.perf_counter()
+    def run(self, folder, *, kill_at=None):
+        """Run a batch, killing it when so many of its files are there."""
         self.process.stdin.write(f"{folder}\n")
         pid = int(self.process.stdout.readline())
-        if kill_after is not None:
-            time.sleep(kill_after)
+        if kill_at is not None:
+            wait_until(lambda: len(list(folder.glob("*.binary"))) >= kill_at)
             os.kill(pid, signal.SIGKILL)  # nobody waits for it yet, so the id is still its own
         self.process.stdin.write("end\n")
         assert self.process.stdout.readline() == "ended\n"
-        return time.perf_counter() - start
 
 
 @pytest.fixture
 def server(library):
     server = Server(library)
     yield server
-    server.process.communicate(timeout=30)
+    server.process.communicate(timeout=PATIENCE)
 
 
-def test_a_batch_killed_at_random_moments_ends_right(server, reference, tmp_path):
+def test_a_batch_that_is_killed_ends_right(server, reference, tmp_path):
     """Kill -9, then the same again: what is there is right at any time, and in the end all is."""
-    whole = server.run(tmp_path / "whole")
-    chance = random.Random(1)
     n_partial = 0
-    for i in range(N_KILLS):
-        out = tmp_path / f"out-{i // 3}"  # up to three kills in one folder
-        server.run(out, kill_after=chance.uniform(0, 0.9 * whole))
+    for i, n_files in enumerate(KILLED_AT):
+        out = tmp_path / f"out-{i // 2}"  # two kills in one folder
+        server.run(out, kill_at=n_files)
         found = contents(out) if out.exists() else {}
         assert {name: reference[name] for name in found} == found
         n_partial += 0 < len(found) < len(reference)
@@ -115,6 +112,10 @@ TRIES = 10
 """On a busy machine a signal may come when all is done; then it is sent to another run."""
 
 
+def begun(process, file):
+    return file.exists() or process.poll() is not None
+
+
 def test_ctrl_c_is_one_line_and_leaves_no_temporary(library, reference, tmp_path):
     command = [sys.executable, "-m", "halfway", "route", library.path, *library.names, "-n", N]
     command += ["--space", "linear", "--pace", "uniform", "--format", "merl", "-o"]
@@ -123,10 +124,9 @@ def test_ctrl_c_is_one_line_and_leaves_no_temporary(library, reference, tmp_path
         process = subprocess.Popen(
             [*map(str, command), str(out)], stderr=subprocess.PIPE, text=True
         )
-        while process.poll() is None and not (out / "003.binary").exists():
-            time.sleep(0.001)
+        wait_until(partial(begun, process, out / "003.binary"))
         process.send_signal(signal.SIGINT)
-        _, talk = process.communicate(timeout=60)
+        _, talk = process.communicate(timeout=PATIENCE)
         found = contents(out)
         assert {name: reference[name] for name in found} == found
         assert not list(out.glob(".*"))

