@@ -9,18 +9,13 @@ from base64 import b64decode
 from collections.abc import Generator, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import pytest
 import uvicorn
-from playwright.sync_api import (
-    Browser,
-    BrowserContext,
-    ConsoleMessage,
-    Error,
-    Page,
-    sync_playwright,
-)
+from patience import PATIENCE, wait_until
+from playwright.sync_api import Browser, ConsoleMessage, Error, Page, expect, sync_playwright
 
 from halfway.brdf import TabularBrdf
 from halfway.halfdiff import Grid
@@ -48,6 +43,7 @@ MATERIALS = (
     "teflon", "yellow-matte-plastic",
 )  # fmt: skip
 GRID = Grid.merl(60, 30, 36)
+expect.set_options(timeout=1000 * PATIENCE)
 SIZE = {"width": 820, "height": 760}
 
 
@@ -73,7 +69,7 @@ def served(library: ProceduralLibrary) -> Generator[str]:
         thread.start()
         yield f"http://127.0.0.1:{listener.getsockname()[1]}/"
         server.should_exit = True
-        thread.join(20)
+        thread.join(PATIENCE)
 
 
 @pytest.fixture(scope="session")
@@ -82,13 +78,23 @@ def browser() -> Iterator[Browser]:
         # A machine's own Chromium where there is one, else the one that Playwright installs.
         executable = shutil.which("chromium")
         try:
-            browser = playwright.chromium.launch(executable_path=executable, args=FLAGS)
+            browser = playwright.chromium.launch(
+                executable_path=executable, args=FLAGS, timeout=1000 * PATIENCE
+            )
         except Error as error:
             pytest.skip(
                 f"needs a Chromium (`playwright install chromium`): {str(error).splitlines()[0]}"
             )
         yield browser
         browser.close()
+
+
+@contextmanager
+def opened(browser: Browser, **options: Any) -> Generator[Page]:
+    """A page of its own."""
+    with browser.new_context(**options) as context:
+        context.set_default_timeout(1000 * PATIENCE)
+        yield context.new_page()
 
 
 # From the drawing buffer, not a screenshot: neither scaled nor composited.
@@ -122,12 +128,11 @@ class Explorer:
         self.page.wait_for_function(
             "n => Number(document.querySelector('.material').dataset.samples) >= n",
             arg=samples,
-            timeout=90_000,
         )
 
     def wait_until_settled(self) -> None:
         """Until the picture has all its pixels and samples."""
-        self.page.wait_for_selector(".material[data-settled=true]", timeout=120_000)
+        self.page.wait_for_selector(".material[data-settled=true]")
 
     def drawn(self) -> np.ndarray:
         """The material's picture, (height, width, RGBA), 8-bit sRGB."""
@@ -136,12 +141,12 @@ class Explorer:
 
     def drawn_after(self, before: np.ndarray) -> np.ndarray:
         """The picture, once it is another one than before."""
-        for _ in range(100):
-            now = self.drawn()
-            if now.shape != before.shape or (now != before).any():
-                return now
-            self.page.wait_for_timeout(50)
-        raise AssertionError("the picture stayed as it was")
+        wait_until(lambda: not np.array_equal(self.drawn(), before), self.pause)
+        return self.drawn()
+
+    def pause(self) -> None:
+        """A moment in which the page goes on."""
+        self.page.wait_for_timeout(50)
 
     @property
     def recipe(self) -> list[str]:
@@ -180,20 +185,16 @@ def in_mitsuba(scene: Scene, brdf: TabularBrdf, like: np.ndarray, *, spp: int) -
 
 @pytest.fixture
 def explorer(browser: Browser, address: str) -> Iterator[Explorer]:
-    context: BrowserContext = browser.new_context(
-        viewport=SIZE, accept_downloads=True, color_scheme="dark"
-    )
-    page = context.new_page()
     errors: list[str] = []
 
     def on_console(message: ConsoleMessage) -> None:
         if message.type == "error":
             errors.append(message.text)
 
-    page.on("console", on_console)
-    page.on("pageerror", lambda error: errors.append(str(error)))
-    explorer = Explorer(page, address)
-    yield explorer
-    context.close()
+    with opened(browser, viewport=SIZE, accept_downloads=True, color_scheme="dark") as page:
+        page.on("console", on_console)
+        page.on("pageerror", lambda error: errors.append(str(error)))
+        explorer = Explorer(page, address)
+        yield explorer
     unexpected = [error for error in errors if not error.startswith(explorer.expected)]
     assert not unexpected, "\n".join(unexpected)

@@ -194,8 +194,9 @@ def test_what_is_let_go_of_beside_the_space_is_let_go_of(explorer: Explorer) -> 
     back.click()
     back.wait_for(state="hidden")
     explorer.page.mouse.move(x, y + 60, steps=5)
-    # A move would be in the link after 150 ms.
-    explorer.page.wait_for_timeout(400)
+    # The link says where the person is: what was done before it says of the light is in it, too.
+    explorer.page.locator("[name=light]").select_option("studio")
+    explorer.page.wait_for_function("() => location.hash.includes('light=studio')")
     assert "point=" not in explorer.page.evaluate("location.hash")
 
 

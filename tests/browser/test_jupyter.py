@@ -5,22 +5,20 @@ import os
 import secrets
 import subprocess
 import sys
-import time
 from collections.abc import Callable, Generator
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
 import nbformat
 import pytest
+from conftest import opened  # pyright: ignore[reportMissingImports]
+from patience import PATIENCE, wait_until
 from playwright.sync_api import Browser, Page, expect
 
 from halfway.server.page import refresh
 
 TOKEN = secrets.token_hex(16)
-START = 60.0
-"""Seconds that Jupyter may take to listen."""
-PATIENCE = 10.0
-"""Seconds that a move may take to reach Python."""
 LIBRARY = """
 from halfway.halfdiff import Grid
 from halfway.library import ProceduralLibrary
@@ -78,16 +76,22 @@ def jupyter(tmp_path_factory: pytest.TempPathFactory) -> Generator[str]:
             yield f"{_address(server, home)}lab/tree/explore.ipynb?token={TOKEN}"
         finally:
             server.terminate()
-            server.wait(20)
+            server.wait(PATIENCE)
 
 
 def _address(server: subprocess.Popen[bytes], home: Path) -> str:
-    end = time.monotonic() + START
-    while time.monotonic() < end and server.poll() is None:
+    """Where Jupyter says that it listens, once it has said so in a whole file."""
+    told: list[str] = []
+
+    def listens() -> bool:
         for path in (home / "runtime").glob("jpserver-*.json"):
-            return json.loads(path.read_text())["url"]
-        time.sleep(0.1)
-    pytest.fail(f"Jupyter did not start:\n{(home / 'log').read_text()[-2000:]}")
+            with suppress(ValueError):  # half written
+                told.append(json.loads(path.read_text())["url"])
+        return bool(told) or server.poll() is not None
+
+    wait_until(listens)
+    assert told, f"Jupyter ended:\n{(home / 'log').read_text()[-2000:]}"
+    return told[0]
 
 
 @dataclass
@@ -102,10 +106,8 @@ class Notebook:
 
     def python_has(self, told: Callable[[list], bool]) -> list:
         """What Python has, once it was told: the page tells it when the kernel has time."""
-        end = time.monotonic() + PATIENCE
-        while not told(has := self.python()) and time.monotonic() < end:
-            self.page.wait_for_timeout(100)
-        return has
+        wait_until(lambda: told(self.python()), lambda: self.page.wait_for_timeout(100))
+        return self.python()
 
     def python(self) -> list:
         """What Python has: stops, space, t, weights."""
@@ -122,29 +124,26 @@ class Notebook:
 
 @pytest.fixture(scope="module")
 def notebook(jupyter: str, browser: Browser) -> Generator[Notebook]:
-    context = browser.new_context(viewport={"width": 1300, "height": 1000})
-    page = context.new_page()
     errors: list[str] = []
-    page.on("pageerror", lambda error: errors.append(str(error)))
-    page.on(
-        "console",
-        lambda message: errors.append(message.text) if "THREE" in message.text else None,
-    )
-    page.goto(jupyter)
-    page.locator(".jp-Notebook .jp-CodeCell").nth(2).wait_for(timeout=60_000)
-    notebook = Notebook(page)
-    notebook.run(0)
-    page.wait_for_selector(".halfway.ready", timeout=60_000)
-    yield notebook
-    context.close()
+    with opened(browser, viewport={"width": 1300, "height": 1000}) as page:
+        page.on("pageerror", lambda error: errors.append(str(error)))
+        page.on(
+            "console",
+            lambda message: errors.append(message.text) if "THREE" in message.text else None,
+        )
+        page.goto(jupyter)
+        page.locator(".jp-Notebook .jp-CodeCell").nth(2).wait_for()
+        notebook = Notebook(page)
+        notebook.run(0)
+        page.wait_for_selector(".halfway.ready")
+        yield notebook
     assert not errors, "\n".join(errors)
 
 
 def test_the_page_shows_itself_where_python_says(notebook: Notebook) -> None:
     page = notebook.page
     page.wait_for_function(
-        "() => Number(document.querySelector('.halfway .material').dataset.samples) >= 1",
-        timeout=90_000,
+        "() => Number(document.querySelector('.halfway .material').dataset.samples) >= 1"
     )
     assert notebook.t == "0.500"
     names = page.locator(".halfway .recipe .name").all_text_contents()

@@ -47,7 +47,7 @@ def test_many_stops_leave_room_for_the_strip(explorer: Explorer, size: dict[str,
     assert bottom_of(explorer, ".strip") < bottom_of(explorer, ".route")
     last = explorer.page.locator(".chip[data-stop]").last
     last.scroll_into_view_if_needed()
-    last.click(timeout=2000)
+    last.click()
 
 
 @pytest.mark.parametrize("size", [WIDE, NARROW])

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from conftest import opened  # pyright: ignore[reportMissingImports]
 from numpy.testing import assert_allclose
 from playwright.sync_api import Browser
 
@@ -103,15 +104,14 @@ def drawn(browser: Browser, pairs: tuple[np.ndarray, np.ndarray]) -> dict[str, n
     """What MaterialX's shader makes of each of `MODELS`, f_r times the cosine of the light."""
     fragment, defaults = shader()
     models = [{**defaults, **model.parameters()} for model in MODELS.values()]
-    page = browser.new_page()
     argument = {
         "vertex": VERTEX,
         "fragment": fragment,
         "models": models,
         "pairs": np.stack(pairs, axis=1).tolist(),
     }
-    colours = page.evaluate(DRAW, argument)
-    page.close()
+    with opened(browser) as page:
+        colours = page.evaluate(DRAW, argument)
     return dict(zip(MODELS, map(np.array, colours), strict=True))
 
 

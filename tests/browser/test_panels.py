@@ -6,6 +6,7 @@ from io import BytesIO
 import numpy as np
 import pytest
 from conftest import Explorer  # pyright: ignore[reportMissingImports]
+from patience import wait_until
 from PIL import Image
 from playwright.sync_api import Request, Route
 
@@ -14,6 +15,9 @@ from halfway.library import ProceduralLibrary
 from halfway.recipes import Recipe, mix
 
 PYRAMID = b"v 0 2 0\nv 1 0 1\nv 1 0 -1\nv -1 0 -1\nv -1 0 1\nf 1 2 3\nf 1 3 4\nf 1 4 5\nf 1 5 2\nf 5 4 3 2\n"
+NEXT_FRAME = (
+    "() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve)))"
+)
 SMALL = {"width": 460, "height": 560}
 DRAWN = """() => {
   const canvas = document.querySelector(".live");
@@ -190,13 +194,18 @@ def test_crossing_into_the_next_simplex_never_blanks_the_picture(explorer: Explo
 
 def test_until_the_route_has_come_the_picture_is_empty(explorer: Explorer) -> None:
     held: list[Route] = []
+    tables: list[Request] = []
+    explorer.page.on(
+        "requestfinished", lambda r: tables.append(r) if "/api/tables/" in r.url else None
+    )
     explorer.page.route("**/api/route*", lambda route: held.append(route))
     explorer.open("#space=linear&stops=cherry-235,gold-paint&t=0.5&light=points")
     # The tables of the stops beside t are here, and no one knows yet how they are mixed.
     explorer.page.wait_for_function(
         "() => document.querySelector('.material .note').textContent === '0 / 128 samples'"
     )
-    explorer.page.wait_for_timeout(300)
+    wait_until(lambda: len(tables) == 2, explorer.pause)
+    explorer.page.evaluate(NEXT_FRAME)
     assert explorer.page.evaluate(DRAWN) == 0
     held[0].continue_()
     explorer.wait_for_picture()
@@ -227,9 +236,11 @@ def test_the_space_shows_where_the_route_crosses_into_another_simplex(explorer: 
         "**/api/route*",
         lambda route: route.fulfill(json={**route.fetch().json(), "crossings": crossings}),
     )
-    without = picture_of_the_space(explorer)
+    open_the_space(explorer)
+    without = still_cloud(explorer)
     crossings += [0.3, 0.6]
-    assert picture_of_the_space(explorer) != without
+    open_the_space(explorer)
+    wait_until(lambda: cloud(explorer) != without, explorer.pause)
 
 
 def test_pictures_come_again_when_the_card_was_lost(explorer: Explorer) -> None:
@@ -237,13 +248,17 @@ def test_pictures_come_again_when_the_card_was_lost(explorer: Explorer) -> None:
     explorer.open("#space=linear&stops=cherry-235,teflon&t=0&light=points")
     explorer.wait_until_settled()
     before = explorer.drawn()
-    space = pixels(explorer.page.locator(".cloud").screenshot())
+    space = pixels(still_cloud(explorer))
     explorer.page.evaluate(
         """async () => {
           const lose = [".live", ".cloud"].map((name) =>
             document.querySelector(name).getContext("webgl2").getExtension("WEBGL_lose_context"));
+          const lost = [".live", ".cloud"].map((name) => new Promise((resolve) =>
+            document.querySelector(name).addEventListener("webglcontextlost", resolve)));
           for (const each of lose) each.loseContext();
-          await new Promise((resolve) => setTimeout(resolve, 100));
+          await Promise.all(lost);
+          // Not within the event: what is lost is restored only once it has been told of.
+          await new Promise((resolve) => setTimeout(resolve));
           for (const each of lose) each.restoreContext();
         }"""
     )
@@ -251,8 +266,7 @@ def test_pictures_come_again_when_the_card_was_lost(explorer: Explorer) -> None:
     explorer.wait_until_settled()
     np.testing.assert_array_equal(explorer.drawn(), before)
     # Edges may be smoothed otherwise by a level or two.
-    again = pixels(explorer.page.locator(".cloud").screenshot())
-    assert np.abs(again - space).max() < 8
+    wait_until(lambda: np.abs(pixels(cloud(explorer)) - space).max() < 8, explorer.pause)
 
 
 def test_the_card_holds_no_more_after_a_minute_of_dragging(explorer: Explorer) -> None:
@@ -281,9 +295,16 @@ def pixels(png: bytes) -> np.ndarray:
     return np.asarray(Image.open(BytesIO(png)).convert("RGB"), float)
 
 
-def picture_of_the_space(explorer: Explorer) -> bytes:
+def open_the_space(explorer: Explorer) -> None:
     explorer.open("#space=linear&stops=cherry-235,teflon&t=0&light=points")
     explorer.page.wait_for_selector(".here")
-    # It is drawn every 60 ms.
-    explorer.page.wait_for_timeout(200)
+
+
+def cloud(explorer: Explorer) -> bytes:
     return explorer.page.locator(".cloud").screenshot()
+
+
+def still_cloud(explorer: Explorer) -> bytes:
+    """The picture of the space, once it stays as it is."""
+    wait_until(lambda: cloud(explorer) == cloud(explorer), explorer.pause)
+    return cloud(explorer)

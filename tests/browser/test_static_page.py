@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 from conftest import Explorer  # pyright: ignore[reportMissingImports]
+from patience import PATIENCE
 
 from halfway.library import ProceduralLibrary, Subset
 from halfway.recipes import Recipe
@@ -48,7 +49,7 @@ def address(folder: Path) -> Generator[str]:
         thread.start()
         yield f"http://127.0.0.1:{server.server_port}/people/materials/"
         server.shutdown()
-        thread.join(20)
+        thread.join(PATIENCE)
 
 
 def test_the_page_opens_and_asks_for_nothing_outside_its_folder(explorer: Explorer) -> None:
