@@ -11,7 +11,9 @@ from strategies import convex_weights
 
 from halfway import LinearSpace, PaperSpace, Pca, Recipe, Route, mix, open_library
 from halfway.errors import OutsideHullError, RecipeError, SpaceError
+from halfway.library import LibraryRef
 from halfway.recipes import Mixer
+from halfway.recipes.mixing import N_AT_ONCE
 from halfway.space import make_space
 
 unit = st.floats(0, 1)
@@ -141,6 +143,15 @@ def test_steps_and_components_have_limits(small_library, space, pca):
         PaperSpace.fit(small_library, pca, n_components=7)
     with pytest.raises(SpaceError, match="there is no space 'cubic': expected one of"):
         make_space("cubic", small_library)
+
+
+@pytest.mark.parametrize("n", [1, 3, 4, 5, 8, 9])
+def test_the_first_mixes_and_the_compiled_ones_have_the_same_bits(small_library, n):
+    weights = np.random.default_rng(n).dirichlet(np.ones(n), 3)
+    recipe = Recipe(LibraryRef("small"), small_library.names[:n], weights)
+    mixer = Mixer(small_library)
+    tables = [mixer.mix(recipe).values for _ in range(N_AT_ONCE + 1)]
+    np.testing.assert_array_equal(tables[-1], tables[0])
 
 
 def test_a_mix_is_the_weighted_sum_of_tables(small_library):

@@ -24,7 +24,7 @@ than 80 degrees from the normal, where measurements are poor and 1/cos is large,
 
 from collections.abc import Callable
 from functools import partial
-from typing import Literal, NamedTuple
+from typing import Literal, NamedTuple, get_args
 
 import numpy as np
 from jaxtyping import Float
@@ -50,7 +50,7 @@ class Difference(NamedTuple):
     """Over the others."""
 
 
-def difference(f: TabularBrdf, g: TabularBrdf, metric: Metric = "log") -> Difference:
+def difference(f: TabularBrdf, g: TabularBrdf, metric: str = "log") -> Difference:
     """The difference of ``g`` from the reference ``f``; all metrics but ``relative`` are symmetric.
 
     Raises
@@ -58,8 +58,8 @@ def difference(f: TabularBrdf, g: TabularBrdf, metric: Metric = "log") -> Differ
     FormatError
         When the tables are on different grids, or there is no such metric.
     """
-    if metric not in (known := [*MAPPINGS, "relative"]):
-        raise FormatError(f"there is no metric {metric!r}: expected one of {', '.join(known)}.")
+    if metric not in METRICS:
+        raise FormatError(f"there is no metric {metric!r}: expected one of {', '.join(METRICS)}.")
     if f.grid != g.grid:
         raise FormatError(
             f"{f.name!r} is on a {f.grid} grid and {g.name!r} on {g.grid}: only tables on one grid can be compared. "
@@ -79,7 +79,7 @@ def difference(f: TabularBrdf, g: TabularBrdf, metric: Metric = "log") -> Differ
 
 Mapping = Callable[[Array, Angle, Angle], Array]
 """Of samples, with the cosines of their directions."""
-MAPPINGS: dict[Metric, Mapping] = {
+MAPPINGS: dict[str, Mapping] = {
     "cosine": lambda f, cos_i, _: f * cos_i,
     "cube-root": lambda f, cos_i, _: np.cbrt(f * cos_i),
     "log": lambda f, cos_i, _: np.log1p(f * cos_i),
@@ -87,6 +87,7 @@ MAPPINGS: dict[Metric, Mapping] = {
         f * np.maximum(cos_i * cos_o, EPSILON) + EPSILON
     ),
 }
+METRICS: tuple[str, ...] = get_args(Metric)
 
 
 def _root_mean_square(cells: Cells, mapping: Mapping, f: Table, g: Table, counts: Mask) -> float:

@@ -32,14 +32,6 @@ class Suffix(StrEnum):
     glb = "glb"
 
 
-class MetricName(StrEnum):
-    log = "log"
-    cube_root = "cube-root"
-    cosine = "cosine"
-    log_relative = "log-relative"
-    relative = "relative"
-
-
 def convert(
     source: Annotated[
         str,
@@ -125,7 +117,8 @@ def diff(
     a: Material,
     b: Material,
     metric: Annotated[
-        MetricName | None, typer.Option(help="This one alone. [default: all of them]")
+        str | None,
+        typer.Option(help="One of cosine, cube-root, log, log-relative, relative. [default: all]"),
     ] = None,
     grid: options.GridText = "",
     as_json: options.AsJson = False,
@@ -139,7 +132,7 @@ def diff(
     halfway diff gold.binary gold.bsdf
     halfway diff cherry-235 tungsten-carbide --metric log
     """
-    from halfway.brdf import MAPPINGS, difference, lit_sphere, quality
+    from halfway.brdf import METRICS, difference, lit_sphere, quality
     from halfway.recipes import open_materials
 
     from .arguments import ArgumentError, parse_grid
@@ -149,7 +142,7 @@ def diff(
         raise ArgumentError(f"{a} and {b} are {len(materials)} materials: name two.")
     first = materials[0].table(parse_grid(grid))
     second = materials[1].table(first.grid)
-    names = [metric.value] if metric else [*MAPPINGS, "relative"]
+    names = [metric] if metric else METRICS
     differences = {name: difference(first, second, name)._asdict() for name in names}
     sphere = quality(lit_sphere(second), lit_sphere(first))
     if as_json:

@@ -49,12 +49,13 @@ def mix(
     from halfway.export import write_material
     from halfway.library import open_library
     from halfway.recipes import NamedBrdf, open_recipe, split_library
-    from halfway.space import make_space
 
     from .arguments import ArgumentError, parse_point
 
     words = words or []
     if point:
+        from halfway.space import make_space
+
         where, rest = split_library(words)
         if rest:
             raise ArgumentError("--point and a recipe are given: a material takes one of them.")

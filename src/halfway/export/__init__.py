@@ -1,12 +1,16 @@
-"""What leaves the package: routes as tables, reports."""
+"""What leaves the package: routes as tables, materials in other formats, reports."""
 
-from . import figures
-from .fits import MODEL_OF, model_of, write_fit
-from .materials import write_material, write_materials
-from .report import Report, TableRow, write_report
-from .routes import Written, write_route
-from .scene_folders import write_scenes
-from .scenes import write_scene
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from . import figures
+    from .fits import MODEL_OF, model_of, write_fit
+    from .materials import write_material, write_materials
+    from .report import Report, TableRow, write_report
+    from .routes import Written, write_route
+    from .scene_folders import write_scenes
+    from .scenes import write_scene
 
 __all__ = [
     "MODEL_OF",
@@ -23,3 +27,20 @@ __all__ = [
     "write_scene",
     "write_scenes",
 ]
+
+# Who writes a table does not wait for what draws figures.
+_HOMES = {
+    "fits": ("MODEL_OF", "model_of", "write_fit"),
+    "materials": ("write_material", "write_materials"),
+    "report": ("Report", "TableRow", "write_report"),
+    "routes": ("Written", "write_route"),
+    "scene_folders": ("write_scenes",),
+    "scenes": ("write_scene",),
+}
+
+
+def __getattr__(name: str) -> Any:
+    for home, names in _HOMES.items():
+        if name in names:
+            return getattr(import_module(f".{home}", __name__), name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

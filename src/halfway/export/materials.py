@@ -9,7 +9,6 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from ..errors import OutputError
-from ..fit import fit
 from ..formats import write_brdf, write_rgl
 from ..halfdiff import Grid
 from ..recipes import NamedBrdf, file_names
@@ -43,6 +42,8 @@ def write_material(
             f"{written.quality.relative_l1:.2%} mean error"
         )
     if path.suffix in MODEL_OF and path.suffix != ".json":
+        from ..fit import fit  # what optimises takes a second to load
+
         brdf = material.table(grid) if grid else material.load()
         fitted = fit(brdf, MODEL_OF[path.suffix], name=material.label)
         write_fit(path, fitted)

@@ -90,7 +90,7 @@ class Grid:
             When a size is no positive whole number.
         """
         for size in (n_theta_h, n_theta_d, n_phi_d):
-            if not isinstance(size, int | np.integer) or size < 1:
+            if size < 1 or size != int(size):
                 raise FormatError(
                     f"a grid of {n_theta_h} x {n_theta_d} x {n_phi_d} cells is none: expected whole numbers from 1 on, "
                     "such as 90, 90, 180."

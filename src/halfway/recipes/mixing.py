@@ -20,6 +20,10 @@ from ..library import Library, open_library
 from .blend import Blend
 from .recipe import Recipe
 
+N_AT_ONCE = 8
+"""Mixes that numpy sums: compiled code is twice as fast, and takes a second to load."""
+_CHUNK = 1 << 15  # samples summed at once: the float64 sums stay in a core's cache
+
 
 class Mixer:
     """Mixes recipes of one library, keeping the rows it used last (`n_rows` of 17.5 MB each on the MERL grid)."""
@@ -31,6 +35,7 @@ class Mixer:
         # Not of a method: a mixer that is done with shall go at once, with its rows.
         self._row = lru_cache(n_rows)(partial(_row, library))
         self._lock = Lock()  # threads that want the same row compute it once
+        self._n_mixed = 0
 
     def __reduce__(self) -> tuple[Any, ...]:
         """A mixer travels without its rows."""
@@ -48,11 +53,13 @@ class Mixer:
         with self._lock:
             rows = [self._row(name) for name in recipe.names]
         values = np.empty((3, grid.size), np.float32)
+        self._n_mixed += 1
+        sum_of = _weighted_sum if self._n_mixed > N_AT_ONCE else _plain_sum
         match recipe.blend:
             case Blend.LINEAR:
                 for out, channel, weights in zip(values, range(3), recipe.weights, strict=True):
                     used = np.flatnonzero(weights)
-                    _weighted_sum(out, [rows[i][channel] for i in used], weights[used])
+                    sum_of(out, [rows[i][channel] for i in used], weights[used])
         return TabularBrdf(values.reshape(3, *grid.shape), grid, name=_title(recipe))
 
 
@@ -101,6 +108,26 @@ def _row(library: Library, name: str) -> Table:
 
 def _title(recipe: Recipe) -> str:
     return recipe.names[0] if len(recipe.names) == 1 else f"mix of {len(recipe.names)}"
+
+
+def _plain_sum(out: np.ndarray, rows: list[np.ndarray], weights: np.ndarray) -> None:
+    """`_weighted_sum` in numpy: the same sums in the same order."""
+    for start in range(0, len(out), _CHUNK):
+        part = slice(start, start + _CHUNK)
+        out[part] = _sum_of_parts([row[part] for row in rows], weights)
+
+
+def _sum_of_parts(rows: list[np.ndarray], weights: np.ndarray) -> np.ndarray:
+    n = len(rows)
+    if n > 4:
+        half = n // 2 if n > 8 else 4
+        return _sum_of_parts(rows[:half], weights[:half]) + _sum_of_parts(
+            rows[half:], weights[half:]
+        )
+    total = np.multiply(rows[0], weights[0], dtype=np.float64)
+    for row, weight in zip(rows[1:], weights[1:], strict=True):
+        total += np.multiply(row, weight, dtype=np.float64)
+    return total
 
 
 def _weighted_sum(out: np.ndarray, rows: list[np.ndarray], weights: np.ndarray) -> None:

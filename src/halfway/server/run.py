@@ -30,8 +30,8 @@ def serve(
     HalfwayError
         When this installation has no page, or no port can be had.
     """
-    page = Page.load()
     with listen(port) as listener:
+        page = Page.load()
         had = listener.getsockname()[1]
         if port not in (0, had):
             print(f"note: port {port} is taken, so this is {had}", file=sys.stderr)
