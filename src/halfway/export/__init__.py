@@ -2,7 +2,7 @@
 
 from . import figures
 from .fits import MODEL_OF, model_of, write_fit
-from .materials import write_material, write_materials
+from .materials import recipe_beside, write_material, write_materials
 from .report import Report, TableRow, write_report
 from .routes import Written, write_route
 from .scene_folders import write_scenes
@@ -15,6 +15,7 @@ __all__ = [
     "Written",
     "figures",
     "model_of",
+    "recipe_beside",
     "write_fit",
     "write_material",
     "write_materials",
