@@ -55,13 +55,13 @@ def cached(
 
 def _forget_oldest(folder: Path, newest: Path) -> None:
     """Remove what was used longest ago from ``folder``, down to `MOST_BYTES`; others may be at it too."""
-    found = []
+    files = []
     for path in folder.glob("*.npz"):
         with suppress(OSError):
             about = path.stat()
-            found.append((about.st_mtime_ns, about.st_size, path))
-    n_bytes = sum(size for _, size, _ in found)
-    for _, size, path in sorted(found):
+            files.append((about.st_mtime_ns, about.st_size, path))
+    n_bytes = sum(size for _, size, _ in files)
+    for _, size, path in sorted(files):
         if n_bytes > MOST_BYTES and path != newest:
             n_bytes -= size
             with suppress(OSError):

@@ -173,20 +173,22 @@ def _require_workers(client: Client, address: str) -> None:
 
 def _require_same_versions(client: Client, address: str) -> None:
     try:
-        found: dict[str, dict[str, str]] = client.run(_versions)
+        of_workers: dict[str, dict[str, str]] = client.run(_versions)
     except Exception as error:
         raise ClusterError(
             f"{address} has workers that cannot import halfway ({error}): expected halfway {version('halfway')} on all "
             "of them. Install it there."
         ) from None
     for what, ours in _versions().items():
-        others = sorted({theirs[what] for theirs in found.values()} - {ours})
+        others = sorted({theirs[what] for theirs in of_workers.values()} - {ours})
         if not others:
             continue
-        told = f"workers of {address} have {what} {', '.join(others)} and here is {ours}"
+        difference = f"workers of {address} have {what} {', '.join(others)} and here is {ours}"
         if what == "halfway":
-            raise ClusterError(f"{told}: expected the same on all machines. Install it there.")
-        warnings.warn(f"{told}: results may differ in the last digits.", stacklevel=2)
+            raise ClusterError(
+                f"{difference}: expected the same on all machines. Install it there."
+            )
+        warnings.warn(f"{difference}: results may differ in the last digits.", stacklevel=2)
 
 
 def _versions() -> dict[str, str]:

@@ -85,8 +85,8 @@ class RemotePath:
 
     def rglob(self, pattern: str) -> Iterator["RemotePath"]:
         with self._asking() as (fs, path):
-            found = [fs.unstrip_protocol(name) for name in fs.find(path)]
-        return (there for there in map(RemotePath, found) if fnmatch(there.name, pattern))
+            urls = [fs.unstrip_protocol(name) for name in fs.find(path)]
+        return (there for there in map(RemotePath, urls) if fnmatch(there.name, pattern))
 
     def mkdir(self, **_: bool) -> None:
         """Nothing: folders are a part of the names of what is in them."""
@@ -155,19 +155,19 @@ def to_location(where: "str | Location") -> Location:
     return RemotePath(where) if SCHEME in where else Path(where)
 
 
-def absolute(place: Location) -> Location:
-    """The place by a name that means the same in every folder."""
-    return place.absolute() if isinstance(place, Path) else place
+def absolute(location: Location) -> Location:
+    """The location by a name that means the same in every folder."""
+    return location.absolute() if isinstance(location, Path) else location
 
 
-def name_in(folder: Location, place: Location) -> str:
+def name_in(folder: Location, location: Location) -> str:
     """What a file is called in a folder that holds it, with ``/`` between."""
-    if isinstance(folder, Path) and isinstance(place, Path):
-        return place.relative_to(folder).as_posix()
-    return str(place).removeprefix(f"{folder}/")
+    if isinstance(folder, Path) and isinstance(location, Path):
+        return location.relative_to(folder).as_posix()
+    return str(location).removeprefix(f"{folder}/")
 
 
-def read_into(place: Location, starts: Sequence[int], buffers: Sequence[memoryview]) -> None:
+def read_into(location: Location, starts: Sequence[int], buffers: Sequence[memoryview]) -> None:
     """Fill each buffer with the bytes of a file from its start on.
 
     Raises
@@ -175,23 +175,23 @@ def read_into(place: Location, starts: Sequence[int], buffers: Sequence[memoryvi
     OSError
         When the file cannot be read, or ends before a buffer is full.
     """
-    if isinstance(place, RemotePath):
+    if isinstance(location, RemotePath):
         ranges = [(start, start + len(b)) for start, b in zip(starts, buffers, strict=True)]
-        for buffer, found in zip(buffers, place.read_ranges(ranges), strict=True):
-            _require_full(place, len(found), len(buffer))
-            buffer[:] = found
+        for buffer, content in zip(buffers, location.read_ranges(ranges), strict=True):
+            _require_full(location, len(content), len(buffer))
+            buffer[:] = content
         return
-    with place.open("rb", buffering=0) as file:
+    with location.open("rb", buffering=0) as file:
         for start, buffer in zip(starts, buffers, strict=True):
-            _require_full(place, _read_at(file, start, buffer), len(buffer))
+            _require_full(location, _read_at(file, start, buffer), len(buffer))
 
 
-def append_text(place: Location, text: str) -> None:
+def append_text(location: Location, text: str) -> None:
     """Add to the end of a file; a remote one, which should be small, is put again as a whole."""
-    if isinstance(place, RemotePath):
-        place.put_text(place.read_text() + text)
+    if isinstance(location, RemotePath):
+        location.put_text(location.read_text() + text)
         return
-    with place.open("a") as file:
+    with location.open("a") as file:
         file.write(text)
 
 
@@ -207,9 +207,9 @@ else:
         return file.readinto(buffer)
 
 
-def _require_full(place: Location, n_bytes: int, expected: int) -> None:
+def _require_full(location: Location, n_bytes: int, expected: int) -> None:
     if n_bytes < expected:
-        raise OSError(f"{place} ended {expected - n_bytes:,} bytes early")
+        raise OSError(f"{location} ended {expected - n_bytes:,} bytes early")
 
 
 def _file_system(url: str) -> tuple[Any, str]:

@@ -179,14 +179,14 @@ def _is_right(folder: Location, entries: Mapping[str, Entry], name: str) -> bool
 
 def _parse(text: str) -> Manifest:
     document = json.loads(text)
-    entries = {_name(name): _entry(found) for name, found in document["files"].items()}
+    entries = {_name(name): _entry(entry) for name, entry in document["files"].items()}
     return Manifest(_made(document), frozenset(entries), entries)
 
 
 def _parse_journal(text: str) -> Manifest:
     first, *lines = text.splitlines()
     head = json.loads(first)
-    entries = {_name(found["file"]): _entry(found) for found in _whole_lines(lines)}
+    entries = {_name(entry["file"]): _entry(entry) for entry in _whole_lines(lines)}
     return Manifest(_made(head), frozenset(map(_name, head["files"])), entries)
 
 
@@ -208,8 +208,8 @@ def _made(document: Any) -> Mapping[str, Any]:
     return made
 
 
-def _entry(found: Mapping[str, Any]) -> Entry:
-    return Entry(found["of"], Checksum(int(found["bytes"]), str(found["sha256"])))
+def _entry(document: Mapping[str, Any]) -> Entry:
+    return Entry(document["of"], Checksum(int(document["bytes"]), str(document["sha256"])))
 
 
 def _name(name: str) -> str:

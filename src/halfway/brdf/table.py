@@ -90,12 +90,12 @@ class TabularBrdf(Brdf):
         wi, wo = np.broadcast_arrays(wi, wo)
         lit = (wi[..., 2] > 0) & (wo[..., 2] > 0)
         above_i, above_o = wi[lit], wo[lit]
-        found = np.empty((len(above_i), 3))
-        for start in range(0, len(found), _CHUNK):
+        values = np.empty((len(above_i), 3))
+        for start in range(0, len(values), _CHUNK):
             chunk = slice(start, start + _CHUNK)
-            found[chunk] = self._blend(lookup(above_i[chunk], above_o[chunk])).T
+            values[chunk] = self._blend(lookup(above_i[chunk], above_o[chunk])).T
         result = np.zeros((*lit.shape, 3))
-        result[lit] = found
+        result[lit] = values
         return result
 
     def fingerprint(self) -> bytes:

@@ -64,7 +64,7 @@ def convert(
     halfway convert builtin:merl-abc tables --grid 30x30x60
     """
     from halfway.batch import filling
-    from halfway.export import write_material, write_materials
+    from halfway.export import recipe_beside, write_material, write_materials
     from halfway.recipes import open_materials
 
     from .arguments import ArgumentError, parse_grid
@@ -83,7 +83,7 @@ def convert(
         raise ArgumentError(
             f"{source} is {len(materials)} materials: name one of them, or a folder to write."
         )
-    with writing(out, force=force):
+    with writing(out, recipe_beside(out, materials[0]), force=force):
         say(f"{out}: {write_material(out, materials[0], grid=cells, spectral=spectral)}")
 
 

@@ -46,7 +46,7 @@ def mix(
     halfway mix route/recipes.json:25 -o middle.binary
     halfway mix --point=-2e4,1e3,-500,0.1,0.05,0.02 --clamp -o there.binary     coordinates: halfway space
     """
-    from halfway.export import write_material
+    from halfway.export import recipe_beside, write_material
     from halfway.library import open_library
     from halfway.recipes import NamedBrdf, open_recipe, split_library
 
@@ -63,6 +63,7 @@ def mix(
         recipe = make_space(space, opened, work=work()).at(parse_point(point), clamp=clamp).recipe
     else:
         opened, recipe = open_recipe(words, library=library)
-    with writing(output, force=force):
-        write_material(output, NamedBrdf.mixed(opened, recipe))
+    material = NamedBrdf.mixed(opened, recipe)
+    with writing(output, recipe_beside(output, material), force=force):
+        write_material(output, material)
     say(f"{output}: a mix of {', '.join(recipe.names)}. Next: halfway render {output} -o new.png")

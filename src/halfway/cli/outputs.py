@@ -48,4 +48,7 @@ def _noted(file: Location) -> str:
 def _note(file: Location) -> Path:
     """Where the state of a file is kept, as it was when it was written."""
     name = sha256(str(absolute(file)).encode()).hexdigest()[:32]
-    return console.cache_folder() / "written" / name
+    folder = console.cache_folder()
+    if folder is None:
+        raise FileNotFoundError("this user has no home")
+    return folder / "written" / name

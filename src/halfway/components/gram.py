@@ -71,13 +71,13 @@ class Gram:
         LibraryError
             When ``library`` lacks a material of this matrix, or no cell is measured in every one.
         """
-        place = {checksum: i for i, checksum in enumerate(library.material_checksums)}
-        if not place.keys() >= set(self.materials):
+        position = {checksum: i for i, checksum in enumerate(library.material_checksums)}
+        if not position.keys() >= set(self.materials):
             raise LibraryError(
                 f"{library.name} lacks some of the {len(self.materials)} materials that are to be completed: "
                 "expected all of them and more. Fit it by itself."
             )
-        known = np.array([place[checksum] for checksum in self.materials])
+        known = np.array([position[checksum] for checksum in self.materials])
         new = np.setdiff1d(np.arange(len(library)), known)
         total = _sum(library, Pass(new, int(known[self.origin])), work)
         if (total.n_cells != self.n_cells).any():
@@ -140,8 +140,8 @@ def _sum(library: Streamed, which: Pass, work: Work) -> _Sum:
 
 def gram_block(library: Streamed, which: Pass, columns: slice) -> _Sum:
     """The task of a pass: the products on one block."""
-    found = (_channel(samples, which) for samples in library.columns(columns))
-    return _Sum(*join_channels(found, library.n_channels))
+    channels = (_channel(samples, which) for samples in library.columns(columns))
+    return _Sum(*join_channels(channels, library.n_channels))
 
 
 def _channel(samples: np.ndarray, which: Pass) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

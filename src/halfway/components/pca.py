@@ -88,8 +88,8 @@ class Pca:
             return _components(kept_gram(library, work=work), k)
 
         method = "exact" if n <= MOST_EXACT else f"sketch-{N_PASSES}"
-        found = work.cached(f"components-1-{method}-{k}-{library.checksum}", compute)
-        return cls._of(library.names, **found)
+        arrays = work.cached(f"components-1-{method}-{k}-{library.checksum}", compute)
+        return cls._of(library.names, **arrays)
 
     @classmethod
     def _of(

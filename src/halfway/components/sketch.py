@@ -98,8 +98,8 @@ def _sum(library: Streamed, tests: np.ndarray, label: str, work: Work) -> _Sum:
 def sketch_block(library: Streamed, tests: np.ndarray, columns: slice) -> _Sum:
     """The task of a pass: the images of the test vectors on one block."""
     block = zip(library.columns(columns), tests, strict=True)
-    found = (_channel(samples, vectors) for samples, vectors in block)
-    return _Sum(*join_channels(found, len(tests)))
+    channels = (_channel(samples, vectors) for samples, vectors in block)
+    return _Sum(*join_channels(channels, len(tests)))
 
 
 def _channel(

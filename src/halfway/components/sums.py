@@ -52,10 +52,10 @@ def measured_pieces(samples: np.ndarray) -> Iterator[Float64[np.ndarray, "N n_me
             yield (columns if measured.all() else columns[:, measured]).astype(np.float64)
 
 
-def join_channels(found: Iterable[Sequence[np.ndarray]], n_channels: int) -> list[np.ndarray]:
-    """What was found of each channel, stacked, without holding all of it twice."""
+def join_channels(channels: Iterable[Sequence[np.ndarray]], n_channels: int) -> list[np.ndarray]:
+    """What was channels of each channel, stacked, without holding all of it twice."""
     whole: list[np.ndarray] = []
-    for channel, parts in enumerate(found):
+    for channel, parts in enumerate(channels):
         if not whole:
             whole = [np.empty((n_channels, *np.shape(part)), part.dtype) for part in parts]
         for total, part in zip(whole, parts, strict=True):

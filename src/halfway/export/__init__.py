@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from . import figures
     from .fits import MODEL_OF, model_of, write_fit
-    from .materials import write_material, write_materials
+    from .materials import recipe_beside, write_material, write_materials
     from .report import Report, TableRow, write_report
     from .routes import Written, write_route
     from .scene_folders import write_scenes
@@ -19,6 +19,7 @@ __all__ = [
     "Written",
     "figures",
     "model_of",
+    "recipe_beside",
     "write_fit",
     "write_material",
     "write_materials",
@@ -31,7 +32,7 @@ __all__ = [
 # Who writes a table does not wait for what draws figures.
 _HOMES = {
     "fits": ("MODEL_OF", "model_of", "write_fit"),
-    "materials": ("write_material", "write_materials"),
+    "materials": ("recipe_beside", "write_material", "write_materials"),
     "report": ("Report", "TableRow", "write_report"),
     "routes": ("Written", "write_route"),
     "scene_folders": ("write_scenes",),

@@ -3,12 +3,19 @@
 .binary             MERL: the table itself
 .bsdf               RGL: resampled, for Mitsuba and pbrt-v4
 .mtlx, .gltf, .glb  an analytic model, fitted
+
+A MERL file has no room for words. So beside one that holds a mix stands its recipe, NAME.recipe.json, with the source and the
+licence of what was mixed; it is read like any recipe.
 """
 
+import json
 from collections.abc import Sequence
+from dataclasses import asdict
 from pathlib import Path
+from typing import Any
 
 from ..errors import OutputError
+from ..files import replacing
 from ..formats import write_brdf, write_rgl
 from ..halfdiff import Grid
 from ..recipes import NamedBrdf, file_names
@@ -50,7 +57,32 @@ def write_material(
         return f"{fitted.name}, {fitted.summary}"
     table = material.table(grid)
     write_brdf(path, table)
+    if beside := recipe_beside(path, material):
+        with replacing(beside) as temporary:
+            temporary.write_text(
+                json.dumps(_recipe_document(material), indent=1, ensure_ascii=False) + "\n"
+            )
     return f"{material.label}, {table.grid} cells"
+
+
+def recipe_beside(path: Path, material: NamedBrdf) -> Path | None:
+    """The file beside ``path`` that says what was mixed; None where it holds no mix, or says so itself."""
+    return (
+        path.with_suffix(".recipe.json") if material.recipe and path.suffix == ".binary" else None
+    )
+
+
+def _recipe_document(material: NamedBrdf) -> dict[str, Any]:
+    library, recipe = material.library, material.recipe
+    assert library is not None
+    assert recipe is not None
+    return {
+        "format": 1,
+        **recipe.to_json(),
+        "library_address": library.address,
+        "library_checksum": library.checksum,
+        **asdict(library.origin),
+    }
 
 
 def write_materials(

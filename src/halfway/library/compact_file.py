@@ -182,10 +182,11 @@ def read_arrays(path: Location, header: Header) -> Arrays:
         When they are damaged.
     """
     arrays = _read_arrays(path, header)
-    found = checksum(header, arrays)
-    if found != header.checksum:
+    actual = checksum(header, arrays)
+    if actual != header.checksum:
         raise _damaged(
-            path, f"its numbers have checksum {found[:12]} and {HEADER} says {header.checksum[:12]}"
+            path,
+            f"its numbers have checksum {actual[:12]} and {HEADER} says {header.checksum[:12]}",
         )
     return arrays
 
@@ -216,9 +217,9 @@ def _read_arrays(path: Location, header: Header) -> Arrays:
 def _member(archive: zipfile.ZipFile, name: str, dtype: str, shape: tuple[int, ...]) -> np.ndarray:
     """The array in a member; its size is that of the shape before anything is unpacked."""
     n_bytes = np.dtype(dtype).itemsize * math.prod(shape)
-    found = archive.getinfo(name).file_size
-    if found != n_bytes:
-        raise ValueError(f"{name} has {found:,} bytes where {n_bytes:,} are expected")
+    n_there = archive.getinfo(name).file_size
+    if n_there != n_bytes:
+        raise ValueError(f"{name} has {n_there:,} bytes where {n_bytes:,} are expected")
     return np.frombuffer(archive.read(name), dtype).reshape(shape)
 
 

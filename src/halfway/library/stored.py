@@ -71,9 +71,9 @@ class StoredLibrary(FileLibrary):
         """Its folder."""
         description = None
         # It may be replaced while we look: then there is another description.
-        while description != (found := _read_description(path)):
-            description = found
-            self._describe(found)
+        while description != (latest := _read_description(path)):
+            description = latest
+            self._describe(latest)
             if self.tables.is_file():
                 break
         self._start = self._check_tables()
@@ -144,17 +144,17 @@ class StoredLibrary(FileLibrary):
         """Where the samples begin."""
         shape = (3, len(self), self.grid.size)
         header = npy_header(shape)
-        found = bytearray(len(header))
+        begins = bytearray(len(header))
         try:
             n_bytes = self.tables.stat().st_size
             if n_bytes >= len(header):
-                read_into(self.tables, [0], [memoryview(found)])
+                read_into(self.tables, [0], [memoryview(begins)])
         except OSError as error:
             raise LibraryError(
                 f"{self.tables} cannot be read ({error.strerror or error}): build the library again."
             ) from None
         expected = len(header) + 4 * math.prod(shape)
-        if bytes(found) != header or n_bytes != expected:
+        if bytes(begins) != header or n_bytes != expected:
             raise LibraryError(
                 f"{self.tables} does not hold what {DESCRIPTION} describes, float32 {shape} in {expected:,} bytes "
                 f"(it has {n_bytes:,}): build the library again."
