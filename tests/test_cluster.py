@@ -46,9 +46,15 @@ def address():
     import dask
     from distributed import LocalCluster
 
-    # A killed worker takes seconds to come back: two deaths prove what four do.
+    options = {
+        # A killed worker takes seconds to come back: two deaths prove what four do.
+        "distributed.scheduler.allowed-failures": 1,
+        # A worker that does not reach the scheduler in time stays away for good.
+        "distributed.comm.timeouts.connect": f"{PATIENCE:g} s",
+        "distributed.comm.timeouts.tcp": f"{PATIENCE:g} s",
+    }
     with (
-        dask.config.set({"distributed.scheduler.allowed-failures": 1}),
+        dask.config.set(options),
         LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=":0") as cluster,
     ):
         yield cluster.scheduler_address
