@@ -79,7 +79,7 @@ def difference(f: TabularBrdf, g: TabularBrdf, metric: str = "log") -> Differenc
 
 Mapping = Callable[[Array, Angle, Angle], Array]
 """Of samples, with the cosines of their directions."""
-MAPPINGS: dict[str, Mapping] = {
+MAPPINGS: dict[Metric, Mapping] = {
     "cosine": lambda f, cos_i, _: f * cos_i,
     "cube-root": lambda f, cos_i, _: np.cbrt(f * cos_i),
     "log": lambda f, cos_i, _: np.log1p(f * cos_i),

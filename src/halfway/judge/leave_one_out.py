@@ -55,7 +55,9 @@ def _errors(space: Space, bench: Bench, i: int) -> dict[str, float]:
     samples = bench.samples
     weights = np.stack([np.eye(len(samples.names))[i][None].repeat(3, 0), space.without(i)], axis=1)
     values = samples.mix(weights, space.blend)
-    looks = {metric: samples.features(values, metric) for metric in metrics.MAPPINGS}
+    looks: dict[str, np.ndarray] = {
+        metric: samples.features(values, metric) for metric in metrics.MAPPINGS
+    }
     looks["log by cell"] = samples.features(values, by="cell")
     seen = appearance(bench.judging.mix(weights, space.blend))
     errors = {name: float(np.linalg.norm(look[0] - look[1])) for name, look in looks.items()}
