@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose, assert_array_equal
-from written_files import NBRDF_SHAPES, keras, nbrdf_layers
+from written_files import NBRDF_SHAPES, keras, keras_model, keras_numbered, nbrdf_layers
 
 from halfway import MERL, Grid, build_library, from_half_diff, open_library, to_half_diff
 from halfway.errors import FormatError
@@ -71,40 +71,18 @@ def test_the_order_of_the_layers_is_the_files_own_not_the_alphabets():
     assert_array_equal(network.b3, nbrdf_layers()[5])
 
 
-def below(content: bytes, group: str) -> bytes:
-    """The same file with all that it holds in a group beside another, as Keras' ``model.save`` writes it."""
-    buffer = io.BytesIO()
-    with h5py.File(io.BytesIO(content)) as source, h5py.File(buffer, "w") as file:
-        file.attrs["model_config"] = "{}"
-        file.create_group("optimizer_weights").attrs["weight_names"] = ["adam/iteration"]
-        source.copy("/", file, name=group)
-    return buffer.getvalue()
-
-
-def numbered(layers: list[np.ndarray], names=("dense", "dense_1", "dense_2")) -> bytes:
-    """The file that Keras 3's ``save_weights`` writes: no list of layers, and the weights called 0 and 1."""
-    buffer = io.BytesIO()
-    with h5py.File(buffer, "w") as file:
-        file.create_group("optimizer/vars")["0"] = np.int32(3)
-        file.create_group("layers/re_lu/vars")
-        for i, name in enumerate(names):
-            group = file.create_group(f"layers/{name}/vars")
-            group["0"], group["1"] = layers[2 * i : 2 * i + 2]
-    return buffer.getvalue()
-
-
 @pytest.mark.parametrize(
     "content",
-    [below(encode(weights()), "model_weights"), numbered(weights())],
+    [keras_model(keras(nbrdf_layers())), keras_numbered(nbrdf_layers())],
     ids=["a whole model", "numbered weights"],
 )
 def test_other_files_of_keras_hold_the_same_network(content):
-    assert read_nbrdf(content).fingerprint() == read_nbrdf(encode(weights())).fingerprint()
+    assert read_nbrdf(content).fingerprint() == read_nbrdf(keras(nbrdf_layers())).fingerprint()
 
 
 def test_a_large_grid_is_computed_in_pieces_as_a_small_one():
     """More cells in a row of theta_h than are computed at once, and a rest."""
-    layers, grid = weights(), Grid.merl(2, 33, 67)
+    layers, grid = nbrdf_layers(), Grid.merl(2, 33, 67)
     expected = np.moveaxis(dense(layers, *from_half_diff(grid.centres())), -1, 0)
     samples = NeuralBrdf(*layers).sample_rows(grid, slice(None))
     close(samples, np.where(grid.mask(), expected, np.nan))
