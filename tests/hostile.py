@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 from exr_files import exr
-from written_files import keras, nbrdf_layers, zipped
+from written_files import keras, keras_model, keras_numbered, merl, nbrdf_layers, zipped
 
 from halfway import Brdf, Grid, TabularBrdf
 from halfway.errors import RenderError
@@ -48,9 +48,12 @@ def subjects(folder: Path) -> dict[str, Subject]:
     }
     return {
         "merl": Subject((folder / "tables" / "clay.binary").read_bytes(), _read_brdf),
+        "merl-order": Subject(_in_another_order(), _read_brdf),
         "rgl": Subject(_tensors(folder, _rgl()), _read_brdf),
         "rgl-spectral": Subject(_tensors(folder, _spectral()), _read_brdf),
         "nbrdf": Subject(_nbrdf(), _read_brdf),
+        "nbrdf-model": Subject(keras_model(_nbrdf()), _read_brdf),
+        "nbrdf-numbered": Subject(keras_numbered(nbrdf_layers()), _read_brdf),
         "zip": Subject(_zip(folder), _find),
         "unpack": Subject(_zip(folder), _unpack),
         "ply": Subject(_PLY, _read_mesh(".ply")),
@@ -238,6 +241,13 @@ def _tensors(folder: Path, fields: dict[str, np.ndarray]) -> bytes:
 def _nbrdf() -> bytes:
     names = ("dense", "dense_1", "dense_2")
     return keras(nbrdf_layers(), order=names)
+
+
+def _in_another_order() -> bytes:
+    """A MERL file whose header states its sizes in another order."""
+    grid = Grid.merl(6, 6, 12)
+    samples = np.random.default_rng(0).random((3, *grid.shape))
+    return merl(np.where(grid.mask(), samples, -1), (12, 6, 6))
 
 
 def _zip(folder: Path) -> bytes:

@@ -1,6 +1,7 @@
 """The validity card and the repair: materials whose laws are broken on purpose, then laws that hold for all."""
 
 import math
+import re
 
 import numpy as np
 import pytest
@@ -11,6 +12,7 @@ from numpy.testing import assert_allclose
 from halfway import Brdf, Grid, TabularBrdf, directional_albedo, tabulate
 from halfway.brdf.albedo_operator import AlbedoOperator, albedos
 from halfway.brdf.check import check
+from halfway.brdf.layout import horizon
 from halfway.brdf.repair import repair
 from halfway.models import builtin
 
@@ -126,6 +128,93 @@ def test_holes_and_samples_below_the_horizon_are_counted():
     card = check(changed((slice(None), *OUTSIDE[1:]), 0.2))
     assert (card.n_holes, card.n_below_horizon, card.mask_is_the_grids) == (0, 1, False)
     assert card.ok
+
+
+def said(card):
+    """What a person reads and what a program reads: the same sentences."""
+    assert (card.ok, list(card.broken), list(card.notes)) == tuple(
+        card.as_json()[key] for key in ("ok", "broken", "notes")
+    )
+    for sentence in card.broken or card.notes:
+        assert sentence in card.summary
+    return [*card.broken, *card.notes]
+
+
+def masked(unmeasured, grid=GRID):
+    return TabularBrdf(
+        np.where(unmeasured, np.nan, np.full((3, *grid.shape), 0.1, np.float32)), grid
+    )
+
+
+@pytest.mark.parametrize(
+    ("mask", "expected"),
+    [
+        (
+            np.roll(~MASK, 4, axis=2),
+            r"\d+ cells above the horizon are unmeasured and \d+ cells below the",
+        ),
+        (~MASK[::-1], r"\d+ cells above the horizon are unmeasured and \d+ cells below the"),
+        (~MASK | (np.arange(10)[:, None] > 6), r"\d+ cells above the horizon are unmeasured"),
+        (~MASK & (np.arange(10)[:, None] > 6), r"\d+ cells below the horizon are measured"),
+        (
+            np.random.default_rng(0).random(GRID.shape) < 0.25,
+            r"\d+ cells above the horizon are unm",
+        ),
+    ],
+    ids=["turned", "upside down", "more", "less", "anywhere"],
+)
+def test_a_mask_that_is_not_the_horizon_is_never_sound(mask, expected):
+    card = check(masked(mask))
+    assert not card.ok
+    assert not card.mask_is_the_grids
+    assert re.match(expected, said(card)[0])
+
+
+def test_the_card_says_which_grid_the_unmeasured_cells_draw():
+    twice = np.concatenate([~MASK, ~MASK], axis=2)
+    values = np.where(twice, np.nan, np.random.default_rng(0).random((3, *twice.shape)) / 9)
+    card = check(TabularBrdf(values.astype(np.float32), Grid.merl(*twice.shape)))
+    assert said(card)[1] == (
+        "its cells are those of another grid: 12 x 10 x 32 cells, phi_d over a whole turn"
+    )
+    assert card.lies_as == "12 x 10 x 32 cells, phi_d over a whole turn"
+
+
+def test_the_card_says_that_the_axes_are_in_another_order():
+    grid = Grid.merl(12, 12, 24)
+    card = check(masked(~grid.mask().transpose(1, 0, 2), grid))
+    assert not card.ok
+    assert said(card)[0].endswith("12 x 12 x 24 cells, stored in the order theta_d, theta_h, phi_d")
+
+
+def test_cells_that_the_horizon_cuts_may_be_measured_or_not():
+    above, below = horizon(GRID)
+    for mask in (below, ~above):
+        card = check(masked(mask))
+        assert card.ok
+        assert len(said(card)) == 1
+
+
+def test_a_table_that_is_measured_everywhere_is_sound():
+    card = check(masked(np.zeros(GRID.shape, bool)))
+    assert card.ok
+    assert said(card) == [f"{(~MASK).sum():,} cells below the horizon are measured"]
+
+
+def test_channels_that_are_measured_in_different_cells_are_said():
+    values = np.array(table(0.1).values)
+    values[2, :, ::2] = np.nan
+    card = check(TabularBrdf(values, GRID))
+    lost, left = MASK[:, ::2].sum() / MASK.size, MASK[:, 1::2].sum() / MASK.size
+    assert said(card)[0] == (
+        f"{100 * lost:.2g}% of the cells are measured in some channels only (red 75.4%, green 75.4%, blue {left:.1%})"
+    )
+    assert not card.ok
+    card = check(changed(INSIDE, np.nan))
+    assert card.ok
+    assert said(card)[0] == (
+        "0.052% of the cells are measured in some channels only (red 75.4%, green 75.4%, blue 75.4%)"
+    )
 
 
 def test_the_highlight_is_found_where_it_is():

@@ -130,6 +130,22 @@ def test_a_single_file_that_is_no_brdf_is_an_error_not_skipped(folder):
     )
 
 
+def test_what_is_damaged_is_told_from_what_is_something_else(folder, archive):
+    for source in (folder, archive):
+        _, skipped = find_brdfs([source])
+        assert [item.reason for item in skipped if item.damaged] == [REASONS["cut.binary"]]
+
+
+def test_a_source_that_is_skipped_counts_as_damaged(folder, archive):
+    archive.write_bytes(archive.read_bytes()[:2000])
+    text = folder / "brdfs/README.txt"
+    found, skipped = find_brdfs([text, archive, folder / "silver.h5"], skip_damaged=True)
+    assert [item.name for item in found] == ["silver"]
+    assert skipped[0] == Skipped(str(text), "is text", damaged=True)
+    assert skipped[1].reason.startswith("is a damaged zip (")
+    assert skipped[1].damaged
+
+
 def test_a_source_that_is_not_there_is_an_error(tmp_path):
     with pytest.raises(FormatError, match="does not exist"):
         find_brdfs([tmp_path / "nowhere"])
@@ -184,15 +200,32 @@ def test_a_damaged_zip_is_one_line(archive):
         find_brdfs([archive])
 
 
-def test_a_damaged_member_is_one_line_when_it_is_loaded(tmp_path):
+def test_a_damaged_member_is_one_line_when_it_is_found_or_loaded(tmp_path):
     path = tmp_path / "all.zip"
     with zipfile.ZipFile(path, "w") as archive:
         archive.writestr("gold.binary", merl(np.ones(3000), (10, 10, 10)))
+        archive.writestr("silver.h5", keras(nbrdf_layers()))
     data = bytearray(path.read_bytes())
-    data[20_000] ^= 255  # a sample: the header is right, the checksum of the member is not
+    # A sample of each: the headers are right, the checksums of the members are not.
+    data[20_000] ^= 255
+    data[30_000] ^= 255
     path.write_bytes(data)
-    found, _ = find_brdfs([path])
+    (silver,), (gold,) = find_brdfs([path])
+    assert gold.reason.startswith("cannot be read (Bad CRC-32")
     with pytest.raises(
-        FormatError, match=r"^gold\.binary cannot be read \(Bad CRC-32.*\): see .*all\.zip:gold"
+        FormatError, match=r"^silver\.h5 cannot be read \(Bad CRC-32.*\): see .*all\.zip:silver"
     ):
-        found[0].load()
+        silver.load()
+
+
+def test_names_are_one_line_of_text_whatever_the_files_are_called(tmp_path):
+    for name in ("two\nlines", "\x1b[31mred", "scan 12:30", "b\u202ea"):
+        (tmp_path / f"{name}.binary").write_bytes(merl())
+    with zipfile.ZipFile(tmp_path / "all.zip", "w") as archive:
+        archive.writestr("a\rb.binary", merl())
+    found, _ = find_brdfs([tmp_path, tmp_path / "all.zip"])
+    names = [r"\x1b[31mred", r"b\u202ea", "scan 12:30", r"two\nlines", r"a\rb"]
+    assert [item.name for item in found] == names
+    (tmp_path / "two\nlines.h5").write_text("no network")
+    with pytest.raises(FormatError, match=r"^two\\nlines\.h5 is text"):
+        read_brdf(tmp_path / "two\nlines.h5")

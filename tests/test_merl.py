@@ -1,5 +1,7 @@
 """MERL tables: a hand-made file first, then round trips, then every way in which a file can be wrong."""
 
+import struct
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -10,7 +12,15 @@ from written_files import MERL_SHAPE, merl
 
 from halfway import MERL, Grid, TabularBrdf
 from halfway.errors import FormatError, OutputError
-from halfway.formats import MerlFile, encode_header, read_merl, write_merl, write_samples
+from halfway.formats import (
+    MerlFile,
+    encode_header,
+    find_brdfs,
+    read_brdf,
+    read_merl,
+    write_merl,
+    write_samples,
+)
 from halfway.formats.merl import SCALES
 from halfway.halfdiff import Axis
 
@@ -175,6 +185,74 @@ def test_a_wrong_file_gets_its_own_line(path, wrong, message):
     assert str(error.value) == message
 
 
+class TestOtherWriters:
+    """Files of the same samples under other headers: right as a table, and kept as they are as a file."""
+
+    GRID = Grid.merl(8, 8, 16)
+
+    @pytest.fixture
+    def table(self):
+        values = np.random.default_rng(0).random((3, 8, 8, 16)).astype(np.float32)
+        values[:, ~self.GRID.mask()] = np.nan
+        return TabularBrdf(values, self.GRID, name="gold-paint")
+
+    def headed(self, table, *sizes) -> bytes:
+        return merl(MerlFile.from_table(table).samples, sizes)
+
+    @pytest.mark.parametrize("sizes", [(16, 8, 8), (8, 16, 8), (1024, 1, 1), (8, 128, 1)])
+    def test_sizes_with_the_right_product_alone(self, path, table, sizes):
+        path.write_bytes(self.headed(table, *sizes))
+        assert read_merl(path).grid == self.GRID
+        assert_array_equal(read_merl(path).values, table.values)
+        assert MerlFile.read(path).to_table().grid == self.GRID
+        MerlFile.read(path).write(path.with_suffix(".copy"))
+        assert path.with_suffix(".copy").read_bytes() == path.read_bytes()
+
+    def test_axes_in_another_order_under_the_right_sizes(self, path, table):
+        samples = MerlFile.from_table(table).samples
+        path.write_bytes(merl(samples.transpose(0, 2, 1, 3), (8, 8, 16)))
+        assert_array_equal(read_merl(path).values, table.values)
+
+    def test_phi_d_over_a_whole_turn(self, path, table):
+        samples = MerlFile.from_table(table).samples
+        path.write_bytes(merl(np.concatenate([samples, samples], axis=3), (8, 8, 32)))
+        assert read_merl(path).grid == self.GRID
+        assert_array_equal(read_merl(path).values, table.values)
+
+    def test_a_library_takes_the_grid_that_the_samples_draw(self, path, table):
+        path.write_bytes(self.headed(table, 16, 8, 8))
+        (found,), _ = find_brdfs([path])
+        assert found.grid == found.load().grid == self.GRID
+
+    def test_an_order_that_nothing_tells_is_noted(self, path):
+        path.write_bytes(merl(np.ones(3 * MERL.size), (180, 90, 90)))
+        with pytest.warns(
+            UserWarning, match="gold-paint states 180 x 90 x 90, as many cells as the"
+        ):
+            assert read_merl(path).grid == Grid.merl(180, 90, 90)
+
+    @pytest.mark.parametrize(
+        ("order", "samples", "named"),
+        [
+            (">", "f8", "big-endian float64"),
+            ("<", "f4", "little-endian float32"),
+            (">", "f4", "big-endian float32"),
+        ],
+    )
+    @pytest.mark.parametrize("sizes", [MERL_SHAPE, (90, 2, 300)])
+    def test_samples_of_another_order_or_type_are_named(self, path, order, samples, named, sizes):
+        body = np.ones(3 * np.prod(sizes), order + samples).tobytes()
+        path.write_bytes(struct.pack(f"{order}3i", *sizes) + body)
+        message = (
+            f"gold-paint.binary is a MERL table of {named}: expected little-endian float64, as in the database. "
+            "Convert it with the program that wrote it."
+        )
+        for read in (read_merl, read_brdf):
+            with pytest.raises(FormatError) as error:
+                read(path)
+            assert str(error.value) == message
+
+
 def test_a_folder_is_not_a_file(tmp_path):
     with pytest.raises(FormatError, match="is a folder: expected one file"):
         read_merl(tmp_path)
@@ -206,7 +284,7 @@ def test_a_grid_that_a_header_cannot_state_is_not_written(path):
         write_merl(path, TabularBrdf(np.ones((3, 5, 6), np.float32), flat, name="gold"))
     assert str(error.value) == (
         "gold has a grid of 5 x 6 cells over theta_h, theta_d: a MERL file holds theta_h (square-root spaced), "
-        "theta_d and phi_d. Sample it on such a grid first."
+        "theta_d and phi_d. Sample it on such a grid first: `halfway convert IN OUT.binary --grid 90x90x180`."
     )
     evenly = Grid((Axis("theta_h", 5, np.pi / 2), *GRID.axes[1:]))
     with pytest.raises(OutputError, match="square-root"):

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose, assert_array_equal
-from written_files import NBRDF_SHAPES, keras, nbrdf_layers
+from written_files import NBRDF_SHAPES, keras, keras_model, keras_numbered, nbrdf_layers
 
 from halfway import MERL, Grid, build_library, from_half_diff, open_library, to_half_diff
 from halfway.errors import FormatError
@@ -69,6 +69,23 @@ def test_the_order_of_the_layers_is_the_files_own_not_the_alphabets():
     network = read_nbrdf(keras(nbrdf_layers(), order=("z", "m", "a")))
     assert_array_equal(network.W1, nbrdf_layers()[0])
     assert_array_equal(network.b3, nbrdf_layers()[5])
+
+
+@pytest.mark.parametrize(
+    "content",
+    [keras_model(keras(nbrdf_layers())), keras_numbered(nbrdf_layers())],
+    ids=["a whole model", "numbered weights"],
+)
+def test_other_files_of_keras_hold_the_same_network(content):
+    assert read_nbrdf(content).fingerprint() == read_nbrdf(keras(nbrdf_layers())).fingerprint()
+
+
+def test_a_large_grid_is_computed_in_pieces_as_a_small_one():
+    """More cells in a row of theta_h than are computed at once, and a rest."""
+    layers, grid = nbrdf_layers(), Grid.merl(2, 33, 67)
+    expected = np.moveaxis(dense(layers, *from_half_diff(grid.centres())), -1, 0)
+    samples = NeuralBrdf(*layers).sample_rows(grid, slice(None))
+    close(samples, np.where(grid.mask(), expected, np.nan))
 
 
 def test_a_path_and_its_bytes_give_the_same_network(tmp_path):

@@ -62,6 +62,9 @@ def test_a_name_may_hold_a_colon():
     assert split_address("x.brdflib:scan 12:30") == ["x.brdflib", "scan 12:30"]
     assert split_address("builtin:merl-abc:teflon") == ["builtin:merl-abc", "teflon"]
     assert split_address("scan 12:30") == ["scan 12:30"]
+    assert split_address("builtin:merl-abc:scan 12:30") == ["builtin:merl-abc", "scan 12:30"]
+    assert split_address("x.brdflib:a.zip:b") == ["x.brdflib", "a.zip:b"]
+    assert split_address("x.brdflib") == ["x.brdflib"]
 
 
 def document(folder, library, **more):

@@ -119,6 +119,22 @@ def test_materials_without_a_common_cell_are_refused():
         Pca.fit(ProceduralLibrary("apart", tables, grid=GRID))
 
 
+def test_the_material_that_is_measured_nowhere_else_is_named():
+    tables = random_tables(5, GRID)
+    values = np.full((3, *GRID.shape), np.nan, np.float32)
+    values[:, 0, 0, 0] = 1
+    measured = tables["material-0"].values.copy()
+    measured[:, 0, 0, 0] = np.nan
+    tables |= {"material-0": TabularBrdf(measured, GRID), "material-3": TabularBrdf(values, GRID)}
+    n = 3 * int(GRID.mask().sum()) - 3
+    with pytest.raises(LibraryError) as error:
+        Pca.fit(ProceduralLibrary("apart", tables, grid=GRID))
+    assert str(error.value) == (
+        "apart has no cell that is measured in all of its 5 materials: a PCA needs some. material-3 measures 3 of "
+        f"{3 * GRID.size} samples, and {n} are measured in all others. Build a library without it."
+    )
+
+
 def test_one_material_is_too_few():
     with pytest.raises(LibraryError, match="has 1 material: a PCA takes at least 2"):
         Pca.fit(ProceduralLibrary("one", random_tables(1, GRID), grid=GRID))

@@ -8,8 +8,9 @@ from hypothesis import given
 from numpy.testing import assert_allclose
 from strategies import convex_weights
 
-from halfway import Recipe
+from halfway import Grid, Recipe, TabularBrdf
 from halfway.errors import RecipeError
+from halfway.library import ProceduralLibrary
 
 NAMES = tuple("abcdef")
 
@@ -25,6 +26,36 @@ def test_a_name_may_hold_commas_and_signs_of_equality(name):
     recipe = Recipe.from_text("lib", f"{name}=0.5, chalk = .5")
     assert recipe.names == (name, "chalk")
     assert_allclose(recipe.weights, 0.5)
+
+
+def library_of(*names):
+    table = TabularBrdf(np.ones((3, 1, 1, 1), np.float32), Grid.merl(1, 1, 1))
+    return ProceduralLibrary("lib", dict.fromkeys(names, table), grid=table.grid)
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("gold=paint=0.5, café=.5", {"gold=paint": 0.5, "café": 0.5}),
+        ("red, matte=0.5, café = 5e-1,", {"red, matte": 0.5, "café": 0.5}),
+        ("12:30=0.25,, two\nlines=0.75", {"12:30": 0.25, "two\nlines": 0.75}),
+        ("gold=1", {"gold": 1.0}),
+    ],
+)
+def test_names_are_told_from_what_stands_between_them(text, expected):
+    """Of a library that is only named, and of one with other names that begin like these."""
+    for library in ("lib", library_of(*expected, "red", "gold", "gold=", "2")):
+        assert Recipe.from_text(library, text).to_json()["weights"] == expected
+
+
+def test_of_two_names_that_fit_the_longer_is_meant():
+    recipe = Recipe.from_text(library_of("b", "c", "b=0.5, c"), "b=0.5, c=0.25, b=0.75")
+    assert recipe.to_json()["weights"] == {"b=0.5, c": 0.25, "b": 0.75}
+
+
+def test_a_comma_in_no_name_of_the_library_is_between_two():
+    with pytest.raises(RecipeError, match="'gold' has no weight: expected NAME=WEIGHT"):
+        Recipe.from_text(library_of("gold", "silver"), "gold, silver=1")
 
 
 def test_weights_that_sum_to_100_are_parts_of_a_hundred_and_said_to_be():

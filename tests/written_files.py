@@ -44,6 +44,28 @@ def keras(
     return buffer.getvalue()
 
 
+def keras_model(weights: bytes) -> bytes:
+    """The weights in a whole model, as Keras' ``model.save`` writes it: below a group, beside the optimiser's."""
+    buffer = io.BytesIO()
+    with h5py.File(io.BytesIO(weights)) as source, h5py.File(buffer, "w") as file:
+        file.attrs["model_config"] = "{}"
+        file.create_group("optimizer_weights").attrs["weight_names"] = ["adam/iteration"]
+        source.copy("/", file, name="model_weights")
+    return buffer.getvalue()
+
+
+def keras_numbered(layers: Sequence[np.ndarray]) -> bytes:
+    """The file that Keras 3's ``save_weights`` writes: no list of layers, and the weights called 0 and 1."""
+    buffer = io.BytesIO()
+    with h5py.File(buffer, "w") as file:
+        file.create_group("optimizer/vars")["0"] = np.int32(3)
+        file.create_group("layers/re_lu/vars")
+        for i, name in enumerate(("dense", "dense_1", "dense_2")):
+            group = file.create_group(f"layers/{name}/vars")
+            group["0"], group["1"] = layers[2 * i], layers[2 * i + 1]
+    return buffer.getvalue()
+
+
 def zipped(members: Mapping[str, bytes]) -> bytes:
     """A deflated zip of files by their names."""
     content = io.BytesIO()

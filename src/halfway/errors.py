@@ -17,6 +17,15 @@
 Every message is one line: which thing, what is wrong with numbers, what was expected, what to do.
 """
 
+import unicodedata
+
+
+def shown(text: str) -> str:
+    r"""Text from elsewhere on one line, as a terminal shows it: what it would obey becomes an escape such as ``\\x1b``."""
+    return "".join(
+        c if c.isprintable() or unicodedata.category(c) == "Zs" else repr(c)[1:-1] for c in text
+    )
+
 
 class HalfwayError(Exception):
     """A mistake a user can mend; the message says how."""

@@ -8,12 +8,12 @@ import secrets
 import shutil
 import tempfile
 import time
-from collections.abc import Generator
+from collections.abc import Collection, Generator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
-from .errors import OutputError
+from .errors import HalfwayError, OutputError
 from .locations import Location, RemotePath
 
 try:
@@ -24,6 +24,20 @@ except ImportError:  # Windows
 _TOKEN_BYTES = 6
 _JUST_MADE_SECONDS = 10.0
 _TEMPORARY = re.compile(rf"\..+\.[0-9a-f]{{{2 * _TOKEN_BYTES}}}(\.\w+)?")
+
+
+def suffix_of(path: Path, known: Collection[str], *, what: str = "format") -> str:
+    """The suffix of a file to write, in small letters: one of ``known``.
+
+    Raises
+    ------
+    OutputError
+        When it is none of them.
+    """
+    if path.suffix.lower() in known:
+        return path.suffix.lower()
+    wrong = f"the suffix {path.suffix!r}, which names no {what}" if path.suffix else "no suffix"
+    raise OutputError(f"{path} has {wrong}: expected {', '.join(known)}.")
 
 
 @contextmanager
@@ -43,18 +57,31 @@ def replacing(path: Location) -> Generator[Path]:
     if isinstance(path, RemotePath):
         with explaining(path), tempfile.TemporaryDirectory(prefix="halfway-") as folder:
             temporary = Path(folder, path.name)
-            yield temporary
+            with _named(path, temporary):
+                yield temporary
             path.put(temporary)
         return
     temporary = path.with_name(f".{path.stem}.{secrets.token_hex(_TOKEN_BYTES)}{path.suffix}")
     with explaining(path):
         try:
             path.parent.mkdir(parents=True, exist_ok=True)
-            yield temporary
+            with _named(path, temporary):
+                yield temporary
             temporary.replace(path)
         finally:
             with suppress(OSError):
                 temporary.unlink()
+
+
+@contextmanager
+def _named(path: Location, temporary: Path) -> Generator[None]:
+    """Let a mistake speak of the file that a person asked for."""
+    try:
+        yield
+    except HalfwayError as error:
+        said = str(error).replace(str(temporary), str(path)).replace(temporary.name, path.name)
+        error.args = (said,)
+        raise
 
 
 @contextmanager

@@ -82,6 +82,11 @@ class IsotropicModel(Brdf):
 
     formula: ClassVar[str] = ""
     """Which formula: part of `fingerprint`, so it changes whenever the values do."""
+
+    @property
+    def about(self) -> str:
+        return f"a fit ({self.formula})"
+
     cells_in_cache: ClassVar[int] = 32768
     """Float64 arrays of this many stay in a core's cache: the MERL grid goes two to three times faster than in one piece."""
 

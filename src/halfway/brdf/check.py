@@ -6,8 +6,10 @@ The laws, and how each is measured:
     non-negative   no value is below 0
     reciprocal     f_r(wi, wo) = f_r(wo, wi), up to `RECIPROCITY_TOLERANCE` of the mean value
     passive        no direction's albedo is above 1, up to `ALBEDO_TOLERANCE`, the error of its integral
+    whole          what is unmeasured is below the horizon, in all channels alike, up to `MASK_TOLERANCE` of the cells; or nothing
+                   is. A table that breaks this has holes, or is on another grid than it says (see `layout`)
 
-All four survive mixing: a mix of sound materials is sound.
+The first four survive mixing: a mix of sound materials is sound. So does the last, where all have the same holes.
 """
 
 import math
@@ -17,11 +19,12 @@ from typing import Any
 
 import numpy as np
 
-from .._types import Directions, Table, Values
+from .._types import Directions, Mask, Table, Values
 from ..colour import LUMINANCE
 from ..halfdiff import MERL, Grid, HalfDiff, from_half_diff
 from .albedo_operator import albedos
 from .brdf import Brdf, require_isotropic
+from .layout import MASK_TOLERANCE, horizon, layout
 from .quadrature import spread_angles
 from .table import TabularBrdf, tabulate
 
@@ -67,8 +70,19 @@ class ValidityCard:
     """From there to half of the height above the floor."""
     dynamic_range: float
     """Largest over median luminance."""
+    mask_error: float
+    """Share of the cells that are wholly above the horizon and unmeasured, or wholly below it and measured; 0 where none is
+    unmeasured."""
+    lies_as: str
+    """Of which other grid, or in which other order, its cells are, by what is unmeasured or comes again; empty if of its own."""
+    channels: tuple[float, float, float]
+    """Share of the cells that are measured in red, green and blue."""
+    differing: float
+    """Share of the cells that are measured in some channels and not in others."""
     broken: tuple[str, ...] = ()
     """The laws it breaks, each as the end of a sentence with numbers."""
+    notes: tuple[str, ...] = ()
+    """What breaks no law and is worth knowing, in the same form."""
 
     @property
     def mask_is_the_grids(self) -> bool:
@@ -90,6 +104,7 @@ class ValidityCard:
         return (
             f"reflects at most {self.max_albedo:.3f} (grazing {self.max_albedo_grazing:.3f}), "
             f"{self.unmeasured:.1%} unmeasured, dynamic range {self.dynamic_range:.3g}{peak}"
+            + "".join(f"; {note}" for note in self.notes)
         )
 
     def as_json(self) -> dict[str, Any]:
@@ -98,8 +113,9 @@ class ValidityCard:
             name: None if isinstance(value, float) and not math.isfinite(value) else value
             for name, value in asdict(self).items()
         }
-        more = {"mask_is_the_grids": self.mask_is_the_grids, "broken": list(self.broken)}
-        return {"ok": self.ok, **card, **more}
+        lists = {"channels": self.channels, "broken": self.broken, "notes": self.notes}
+        more = {key: list(value) for key, value in lists.items()}
+        return {"ok": self.ok, **card, **more, "mask_is_the_grids": self.mask_is_the_grids}
 
 
 def check(brdf: Brdf, *, grid: Grid = MERL) -> ValidityCard:
@@ -112,7 +128,8 @@ def check(brdf: Brdf, *, grid: Grid = MERL) -> ValidityCard:
     """
     require_isotropic(brdf, "its check")
     table = brdf if isinstance(brdf, TabularBrdf) else tabulate(brdf, grid)
-    measured = ~np.isnan(table.values).any(axis=0)
+    by_channel = ~np.isnan(table.values)
+    measured = np.asarray(by_channel.all(axis=0))
     mask = table.grid.mask()
     wi, wo = _pairs()
     with np.errstate(invalid="ignore", over="ignore"):
@@ -141,15 +158,38 @@ def check(brdf: Brdf, *, grid: Grid = MERL) -> ValidityCard:
         highlight_degrees=peak,
         highlight_width_degrees=width,
         dynamic_range=_dynamic_range(table.values),
+        mask_error=_mask_error(measured, table.grid),
+        lies_as=_other_layout(table),
+        channels=tuple(by_channel.reshape(3, -1).mean(axis=1).tolist()),
+        differing=float((by_channel.any(axis=0) & ~measured).mean()),
     )
-    return replace(card, broken=tuple(_broken(card)))
+    return replace(card, broken=tuple(_broken(card)), notes=tuple(_notes(card)))
+
+
+def _mask_error(measured: Mask, grid: Grid) -> float:
+    if measured.all():
+        return 0.0
+    above, below = horizon(grid)
+    return float(((above & ~measured) | (below & measured)).mean())
+
+
+def _other_layout(table: TabularBrdf) -> str:
+    found = layout(table.values, table.grid)
+    return "" if found.is_plain and found.grid == table.grid else str(found)
 
 
 def _broken(card: ValidityCard) -> Iterator[str]:
-    if card.n_infinite:
-        yield f"{card.n_infinite:,} samples are infinite"
     if math.isnan(card.minimum):
         yield "nothing is measured"
+        return
+    if card.n_infinite:
+        yield f"{card.n_infinite:,} samples are infinite"
+    if card.differing > MASK_TOLERANCE:
+        yield _differing(card)
+    if card.mask_error > MASK_TOLERANCE:
+        yield " and ".join(_misplaced(card))
+    if card.lies_as:
+        yield f"its cells are those of another grid: {card.lies_as}"
     if card.minimum < 0:
         yield f"goes down to {card.minimum:.3g} /sr"
     if card.reciprocity_error > RECIPROCITY_TOLERANCE:
@@ -160,6 +200,30 @@ def _broken(card: ValidityCard) -> Iterator[str]:
         yield f"reflects {card.max_albedo:.3g} times the light from {card.max_albedo_degrees:.0f} degrees"
     if card.max_albedo_grazing > 1 + ALBEDO_TOLERANCE:
         yield f"reflects {card.max_albedo_grazing:.3g} times the light from above 80 degrees"
+
+
+def _notes(card: ValidityCard) -> Iterator[str]:
+    if math.isnan(card.minimum):
+        return
+    if 0 < card.differing <= MASK_TOLERANCE:
+        yield _differing(card)
+    if card.mask_error <= MASK_TOLERANCE:
+        yield from _misplaced(card)
+
+
+def _differing(card: ValidityCard) -> str:
+    red, green, blue = (f"{share:.1%}" for share in card.channels)
+    return (
+        f"{100 * card.differing:.2g}% of the cells are measured in some channels only "
+        f"(red {red}, green {green}, blue {blue})"
+    )
+
+
+def _misplaced(card: ValidityCard) -> Iterator[str]:
+    if card.n_holes:
+        yield f"{card.n_holes:,} cells above the horizon are unmeasured"
+    if card.n_below_horizon:
+        yield f"{card.n_below_horizon:,} cells below the horizon are measured"
 
 
 def _pairs() -> tuple[Directions, Directions]:

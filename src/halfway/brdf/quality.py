@@ -14,6 +14,7 @@ import numpy as np
 
 from .._types import Values
 from ..colour import to_srgb
+from ..errors import FormatError
 from .brdf import Brdf, require_isotropic
 
 _SIDE = 96
@@ -42,16 +43,25 @@ def lit_sphere(brdf: Brdf) -> Values:
 
     Raises
     ------
+    FormatError
+        When nothing that the sphere shows is measured.
     AnisotropyError
         When the BRDF depends on how it is turned; the sphere's frames are those of an isotropic one.
     """
     require_isotropic(brdf, "its lit sphere")
     wo = _frames() @ np.array([0.0, 0.0, 1.0])
     total = np.zeros_like(wo)
+    n_known = 0
     for direction, weight in _LIGHTS:
         wi = _frames() @ (np.array(direction) / np.linalg.norm(direction))
-        values = np.nan_to_num(brdf.eval(wi, wo), nan=0.0)
-        total += weight * np.pi * values * np.maximum(wi[:, 2:], 0)
+        values, cosine = brdf.eval(wi, wo), np.maximum(wi[:, 2:], 0)
+        n_known += np.count_nonzero(np.isfinite(values) & (cosine > 0))
+        total += weight * np.pi * np.nan_to_num(values, nan=0.0) * cosine
+    if not n_known:
+        raise FormatError(
+            f"{getattr(brdf, 'name', '') or 'the material'} is measured nowhere on a lit sphere: expected a table of a whole "
+            "material. `halfway check` says what is in it."
+        )
     return total
 
 

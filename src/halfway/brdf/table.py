@@ -72,7 +72,8 @@ class TabularBrdf(Brdf):
 
     @property
     def about(self) -> str:
-        return f"a table of {self.grid} cells"
+        nothing = ", nothing is measured" if np.isnan(self.values).all() else ""
+        return f"a table of {self.grid} cells{nothing}"
 
     def eval(
         self, wi: Directions, wo: Directions, *, interpolation: Interpolation = "trilinear"

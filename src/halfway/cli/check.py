@@ -52,7 +52,7 @@ def check(
     if as_json:
         print(json.dumps([_as_json(*card) for card in cards], indent=1))
     else:
-        show("\n".join(_as_line(*card) for card in cards))
+        show(*(_as_line(*card) for card in cards))
     n_unread = sum(isinstance(card, HalfwayError) for _, card in cards)
     n_broken = sum(not isinstance(card, HalfwayError) and not card.ok for _, card in cards)
     if n_broken or n_unread:

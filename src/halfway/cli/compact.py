@@ -70,8 +70,7 @@ def compact(
             work=work,
         )
     say(
-        "\n".join(
-            [f"{output}: {len(compacted)} materials on {compacted.grid}", *compacted.storage()]
-        )
+        f"{output}: {len(compacted)} materials on {compacted.grid}",
+        *compacted.storage(),
+        f"Next: halfway route {output} A B",
     )
-    say(f"Next: halfway route {output} A B")

@@ -11,7 +11,7 @@ from io import TextIOWrapper
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
-from ..errors import HalfwayError
+from ..errors import HalfwayError, shown
 
 if TYPE_CHECKING:
     from ..tasks import Work
@@ -28,20 +28,17 @@ PATIENCE = 1.0
 """Seconds before a progress bar appears."""
 
 
-def say(text: str) -> None:
+def say(*lines: str) -> None:
     """Lines for the person, on stderr."""
     with suppress(OSError):  # nobody is there to hear it
-        print(printable(text), file=sys.stderr)
+        for line in lines:
+            print(shown(line), file=sys.stderr)
 
 
-def show(text: str, *, end: str = "\n") -> None:
-    """Lines of the answer, on stdout."""
-    print(printable(text), end=end)
-
-
-def printable(text: str) -> str:
-    """The text without what would steer a terminal, which a name in a file may hold."""
-    return "".join(c if c.isprintable() or c == "\n" else "\N{REPLACEMENT CHARACTER}" for c in text)
+def show(*lines: str, end: str = "\n") -> None:
+    """Lines of the answer, on stdout; names in them may hold anything."""
+    for line in lines:
+        print(shown(line), end=end)
 
 
 def track(items: Iterable[T], label: str, total: int) -> Iterable[T]:
@@ -123,7 +120,7 @@ def run(app: Callable[[], None]) -> None:
         _leave_stdout()
         if debug:
             raise
-        say(f"halfway: {_one_line(error)}")
+        say(f"halfway: {_message(error)}")
         sys.exit(1)
     except SystemExit as stop:
         # Typer makes a silent exit of Ctrl-C.
@@ -148,10 +145,10 @@ def _leave_stdout() -> None:
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
-def _one_line(error: Exception) -> str:
+def _message(error: Exception) -> str:
     if isinstance(error, OSError) and error.strerror:
         return f"{error.filename or 'the output cannot be written'}: {error.strerror}."
-    return printable(str(error).replace("\n", " "))
+    return str(error)
 
 
 def _note(message: Warning | str, *_: object, **__: object) -> None:

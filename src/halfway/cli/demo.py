@@ -27,7 +27,7 @@ def demo(
     say(f"Library {library.name}: {library.origin.description}.")
     with filling(output, "demo", force=force) as folder:
         demonstrate(folder, library, work=work())
-    say(f"""
+    epilogue = f"""
 {output}/
   strip.png          teapots from light-brown-fabric to blue-fabric
   route.webp         all 51, animated
@@ -39,4 +39,5 @@ Try next:
   halfway view
   halfway render {output}/025.binary -o middle.png --size 768
   halfway route cherry-235 tungsten-carbide -o metal --format merl
-  halfway library build FOLDER-OF-MERL-FILES -o mine.brdflib""")
+  halfway library build FOLDER-OF-MERL-FILES -o mine.brdflib"""
+    say(*epilogue.splitlines())

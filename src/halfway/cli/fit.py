@@ -75,7 +75,7 @@ def fit(
     if as_json:
         print(json.dumps([fit.to_json() for fit in fits], indent=1))
     else:
-        show("\n".join(f"{fit.name}, {fit.summary}" for fit in fits))
+        show(*(f"{fit.name}, {fit.summary}" for fit in fits))
     if output:
         say(f"{output}: {fits[0].name}")
     if picture:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ..locations import DEFAULT_LIBRARY
+from .check import UNREADABLE
 from .compact import compact
 from .console import say, show, working
 from .options import AsJson, GridText, Lib, Scheduler
@@ -36,6 +37,8 @@ def build(
 ) -> None:
     """Tabulate every BRDF found in SOURCE into the library LIB. A SOURCE may be a library, and LIB itself: that adds to it.
 
+    What is damaged is left out; the exit code is then 3.
+
     \b
     halfway library build ~/BRDFDatabase/brdfs -o merl.brdflib
     halfway library build merl_nbrdf.zip -o neural.brdflib
@@ -56,13 +59,14 @@ def build(
             grid=parse_grid(grid),
             work=work,
         )
-    for line in skipped_lines(built.skipped):
-        say(line)
+    say(*skipped_lines(built.skipped))
     say(
         f"{output}: {len(built.library)} materials on {built.library.grid}"
         + (f", {len(built.skipped)} skipped" if built.skipped else "")
         + f". Next: halfway report {output} -o report"
     )
+    if any(item.damaged for item in built.skipped):
+        raise typer.Exit(UNREADABLE)
 
 
 def skipped_lines(skipped: "Sequence[Skipped]") -> list[str]:
@@ -102,8 +106,7 @@ def info(
     for key in ("description", "source", "licence"):
         if facts[key]:
             show(f"{key}: {facts[key]}")
-    for line in [*library.storage(), *(f"  {name}" for name in library.names)]:
-        show(line.replace("\n", " "))
+    show(*library.storage(), *(f"  {name}" for name in library.names))
 
 
 @app.command()

@@ -80,7 +80,7 @@ def render(
         return
     labels = [Path(word).name for word in words]
     with writing(output, force=force):
-        if output.suffix in pictures.ANIMATED and len(materials) > 1:
+        if output.suffix.lower() in pictures.ANIMATED and len(materials) > 1:
             n_frames = write_animation(
                 output, renderer, rows, labels=labels, fps=fps, exposure=exposure, work=work()
             )

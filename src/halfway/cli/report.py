@@ -73,6 +73,6 @@ def report(
         print(json.dumps(report.to_json(), indent=1))
     else:
         about = f", {report.description}" if report.description else ""
-        show("\n".join([f"{library.name}: {len(library)} materials{about}", *report.lines()]))
+        show(f"{library.name}: {len(library)} materials{about}", *report.lines())
     if output:
         say(f"{output}: report.json, eigenvalues and triangulation (png, svg)")

@@ -49,7 +49,7 @@ def space(
         say(
             f"distance, in the scaled coordinates of the {space} space, in which scores have a spread of 1"
         )
-        show("\n".join(f"{distance:10.4f}  {name}" for name, distance in neighbours))
+        show(*(f"{distance:10.4f}  {name}" for name, distance in neighbours))
     else:
         say("in 1/sr")
         show("  ".join(f"{name:>12}" for name in chosen.coordinates) + "  material")

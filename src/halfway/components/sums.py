@@ -36,9 +36,24 @@ def sum_blocks(
     if not total[-1].all():
         raise LibraryError(
             f"{library.name} has no cell that is measured in all of its {len(library)} materials: a PCA needs some. "
-            "Build a library of materials that were measured on the same cells."
+            f"{_culprit(library)}. Build a library without it."
         )
     return total
+
+
+def _culprit(library: Streamed) -> str:
+    """The material that stands in the way of the most samples by itself; where none does, the one with the fewest."""
+    n_alone, n_measured = np.zeros((2, len(library)), int)
+    for block in library.blocks():
+        missing = np.isnan(library.columns(block))
+        n_alone += (missing & (missing.sum(axis=1, keepdims=True) == 1)).sum(axis=(0, 2))
+        n_measured += (~missing).sum(axis=(0, 2))
+    i = int(n_alone.argmax() if n_alone.any() else n_measured.argmin())
+    n_samples = library.n_channels * library.grid.size
+    return (
+        f"{library.names[i]} measures {n_measured[i]:,} of {n_samples:,} samples, and {n_alone[i]:,} are measured in all "
+        "others"
+    )
 
 
 def measured_pieces(samples: np.ndarray) -> Iterator[Float64[np.ndarray, "N n_measured"]]:

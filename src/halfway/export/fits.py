@@ -8,8 +8,7 @@
 import json
 from pathlib import Path
 
-from ..errors import OutputError
-from ..files import replacing
+from ..files import replacing, suffix_of
 from ..fit import Fit
 from .gltf import to_glb, to_gltf
 from .materialx import to_materialx
@@ -26,13 +25,7 @@ def model_of(path: str | Path) -> str:
     OutputError
         When the suffix names no format of fitted models.
     """
-    suffix = Path(path).suffix
-    if suffix not in MODEL_OF:
-        raise OutputError(
-            f"{path} has the suffix {suffix!r}, which names no format of fitted models: expected "
-            f"{', '.join(MODEL_OF)}."
-        )
-    return MODEL_OF[suffix]
+    return MODEL_OF[suffix_of(Path(path), MODEL_OF, what="format of fitted models")]
 
 
 def write_fit(path: str | Path, fit: Fit) -> None:
@@ -44,8 +37,7 @@ def write_fit(path: str | Path, fit: Fit) -> None:
         When the suffix names no format, the format cannot hold the model, or the file cannot be written.
     """
     path = Path(path)
-    model_of(path)
-    match path.suffix:
+    match suffix_of(path, MODEL_OF, what="format of fitted models"):
         case ".mtlx":
             data = to_materialx(fit).encode()
         case ".gltf":

@@ -40,7 +40,8 @@ def write_material(
     OutputError
         When the suffix names no format, the format cannot hold the material, or the file cannot be written.
     """
-    if path.suffix == ".bsdf":
+    suffix = path.suffix.lower()
+    if suffix == ".bsdf":
         brdf = material.table(grid) if grid else material.load()
         written = write_rgl(path, brdf, spectral=spectral, description=material.label)
         n_theta_i, side = written.resolution
@@ -48,11 +49,11 @@ def write_material(
             f"{n_theta_i} x {side} x {side}, {written.quality.psnr:.1f} dB on a lit sphere, "
             f"{written.quality.relative_l1:.2%} mean error"
         )
-    if path.suffix in MODEL_OF and path.suffix != ".json":
+    if suffix in MODEL_OF and suffix != ".json":
         from ..fit import fit  # what optimises takes a second to load
 
         brdf = material.table(grid) if grid else material.load()
-        fitted = fit(brdf, MODEL_OF[path.suffix], name=material.label)
+        fitted = fit(brdf, MODEL_OF[suffix], name=material.label)
         write_fit(path, fitted)
         return f"{fitted.name}, {fitted.summary}"
     table = material.table(grid)

@@ -128,7 +128,8 @@ def _on_the_grid_of_the_database(table: TabularBrdf) -> TabularBrdf:
     if table.grid != MERL:
         raise OutputError(
             f"{table.name or 'the table'} has {table.grid} cells, and pbrt-v2 reads none but the database's {MERL}: "
-            "export it for mitsuba or pbrt-v4, or sample it on that grid first."
+            "export it for mitsuba or pbrt-v4, or sample it on that grid first, with "
+            f"`halfway convert IN OUT.binary --grid {'x'.join(map(str, MERL.shape))}`."
         )
     return table
 

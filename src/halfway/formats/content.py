@@ -1,6 +1,8 @@
 """What a file is, by its first bytes and its size; never by its suffix."""
 
+import math
 import struct
+from itertools import product
 
 HEAD_BYTES = 512
 """How many first bytes tell what a file is."""
@@ -10,6 +12,9 @@ TENSOR_FILE = b"tensor_file\0"
 ZIP = (b"PK\x03\x04", b"PK\x05\x06")
 
 MERL_HEADER = struct.Struct("<3i")
+MERL_SAMPLES = "little-endian float64"
+_ORDERS = {"little-endian": MERL_HEADER, "big-endian": struct.Struct(">3i")}
+_SAMPLE_BYTES = {"float64": 8, "float32": 4}
 LARGEST_AXIS = 1 << 16
 """Cells along one axis of a MERL table, at most, unless the file's size agrees. Four letters of text are more."""
 
@@ -53,14 +58,21 @@ def merl_bytes(sizes: tuple[int, ...]) -> int:
     return MERL_HEADER.size + 24 * n_theta_h * n_theta_d * n_phi_d
 
 
+def merl_like(head: bytes, n_bytes: int) -> str | None:
+    """How the file would be a MERL table: `MERL_SAMPLES`, as they are, or in another order or type; None if not."""
+    for (order, sizes_as), (samples, n) in product(_ORDERS.items(), _SAMPLE_BYTES.items()):
+        sizes = sizes_as.unpack_from(head)
+        if min(sizes) > 0 and MERL_HEADER.size + 3 * n * math.prod(sizes) == n_bytes:
+            return f"{order} {samples}"
+    return None
+
+
 def _like_merl(head: bytes, n_bytes: int) -> bool:
     if len(head) < MERL_HEADER.size:
         return False
-    sizes = MERL_HEADER.unpack_from(head)
     # A header of small numbers is taken for a MERL table even where it is wrong, so that the reader can say what is.
-    return all(abs(n) <= LARGEST_AXIS for n in sizes) or (
-        min(sizes) > 0 and merl_bytes(sizes) == n_bytes
-    )
+    small = all(abs(n) <= LARGEST_AXIS for n in MERL_HEADER.unpack_from(head))
+    return small or merl_like(head, n_bytes) is not None
 
 
 def _is_text(head: bytes) -> bool:

@@ -8,13 +8,13 @@ from hashlib import sha256
 from pathlib import Path
 
 from ..brdf import Brdf
-from ..errors import FormatError
+from ..errors import FormatError, shown
 from ..halfdiff import Grid
 from ..locations import BUILTIN_PREFIX
 from ..models import ModelSet, builtin
 from ..origin import Origin
 from .content import HEAD_BYTES, description, kind
-from .merl import read_grid, read_merl_source
+from .merl import read_merl_source, table_grid
 from .nbrdf import ARCHIVE, NeuralBrdf, read_nbrdf_source, require_small
 from .rgl_reader import material_name, read_rgl_source
 from .sources import FileSource, MemberSource, Source, by_name, members
@@ -29,7 +29,7 @@ _EXPECTED = "expected a MERL table, a neural BRDF (.h5) or an RGL material (.bsd
 
 @dataclass(frozen=True)
 class Found:
-    """A BRDF that is there to be loaded. Nothing but its header has been read."""
+    """A BRDF that is there to be loaded. Of what is large, nothing but its header has been read."""
 
     name: str
     source: str
@@ -58,18 +58,23 @@ class Found:
 
 @dataclass(frozen=True)
 class Skipped:
-    """A file that is no BRDF."""
+    """A file that is no BRDF, or a damaged one."""
 
     path: str
     reason: str
     """The end of a sentence that begins with the file: "is text"."""
+    damaged: bool = False
+    """Whether it should be one: it begins as one does, or was named itself."""
 
     @classmethod
-    def because(cls, error: FormatError, path: str) -> "Skipped":
+    def because(cls, error: FormatError, path: str, *, damaged: bool = True) -> "Skipped":
         """What an error says of a file, without its advice."""
-        said = str(error)
-        what_is_wrong, _, _ = (said.partition(Path(path).name)[2] or said).partition(": ")
-        return cls(path, what_is_wrong.strip())
+        said, name = str(error), shown(Path(path).name)
+        # Of a member of a zip, what follows the zip's name; a name may hold other colons.
+        names = [name, *(name[i + 1 :] for i, letter in enumerate(name) if letter == ":")]
+        label = next(filter(said.startswith, names), "")
+        what_is_wrong, _, _ = said.removeprefix(label).lstrip(": ").partition(": ")
+        return cls(path, what_is_wrong, damaged)
 
 
 def read_brdf(path: str | Path) -> Brdf:
@@ -140,15 +145,17 @@ def _items(source: str | Path, skip_damaged: bool) -> Iterator[Found | Skipped]:
     path = Path(source)
     if path.is_dir():
         yield from map(_file, _files(path))
-    elif _kind(file := FileSource(path)) == "zip":
-        yield from map(_member, members(path))
-    else:
-        try:
+        return
+    file = FileSource(path)
+    try:
+        if _kind(file) == "zip":
+            yield from map(_member, members(path))
+        else:
             yield _inspect(file)
-        except FormatError as error:
-            if not skip_damaged:
-                raise
-            yield Skipped.because(error, str(path))
+    except FormatError as error:
+        if not skip_damaged:
+            raise
+        yield Skipped.because(error, str(path))
 
 
 def _built_in(name: str) -> Iterator[Found]:
@@ -189,10 +196,13 @@ def _examine(location: str, label: str, open_source: Callable[[], Source]) -> Fo
     """What a file among others is; one that is no BRDF is no error there."""
     if label.startswith("."):
         return Skipped(location, "is hidden")
+    claimed = None
     try:
-        return _inspect(open_source())
+        source = open_source()
+        claimed = _kind(source)
+        return _inspect(source)
     except FormatError as error:
-        return Skipped.because(error, location)
+        return Skipped.because(error, location, damaged=claimed in ("merl", "nbrdf", "rgl"))
 
 
 def _inspect(source: Source) -> Found:
@@ -208,7 +218,7 @@ def _inspect(source: Source) -> Found:
     head = source.head(HEAD_BYTES)
     match kind(head, source.n_bytes):
         case "merl":
-            return _found(source, read_grid(source), read_merl_source)
+            return _found(source, table_grid(source), read_merl_source)
         case "nbrdf":
             require_small(source)
             # A network by itself may be anyone's; an archive of them is the published one.

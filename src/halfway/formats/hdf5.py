@@ -59,6 +59,14 @@ class Hdf5Object:
             found = Hdf5Object(self._bytes, found._members[name])
         return found
 
+    def __contains__(self, name: str) -> bool:
+        return name in self._members
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """What a group holds, by name; none where this is no group."""
+        return tuple(self._members)
+
     def strings(self, attribute: str, *, most: int) -> list[str] | None:
         """The strings of an attribute, ``most`` of them or fewer; None where there is no such attribute."""
         for kind, message in self._messages:

@@ -7,13 +7,16 @@ little endian; 34,992,012 bytes in the database. A sample is stored divided by i
 
     f_r = sample x (1, 1.15, 1.66) / 1500   in 1/sr,
 
-and a negative one is unmeasured: NaN in our tables, -1 in the files that we write. Any grid that a header states is
-read, so that tests and experiments may use small ones.
+and a negative one is unmeasured: NaN in our tables, -1 in the files that we write. Any grid is read, so that tests and
+experiments may use small ones. Of the header the database's reader looks at the product alone, and other programs write
+its sizes in other orders, or phi_d over the whole turn: a table has the grid whose horizon its unmeasured cells draw (see
+`halfway.brdf.layout`), and a `MerlFile` keeps what the header states.
 
 Source: W. Matusik, H. Pfister, M. Brand, L. McMillan, "A Data-Driven Reflectance Model", SIGGRAPH 2003, and the
 reader that comes with the database.
 """
 
+import warnings
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
@@ -23,12 +26,21 @@ from pathlib import Path
 
 import numpy as np
 
-from .._types import Samples
+from .._types import Samples, Table
 from ..brdf import TabularBrdf
+from ..brdf.layout import layout
 from ..errors import FormatError, OutputError
 from ..files import replacing
-from ..halfdiff import Grid
-from .content import HEAD_BYTES, LARGEST_AXIS, MERL_HEADER, description, merl_bytes
+from ..halfdiff import MERL, Grid
+from .content import (
+    HEAD_BYTES,
+    LARGEST_AXIS,
+    MERL_HEADER,
+    MERL_SAMPLES,
+    description,
+    merl_bytes,
+    merl_like,
+)
 from .sources import FileSource, Source
 
 SCALES = np.array([1.0, 1.15, 1.66]) / 1500
@@ -38,6 +50,7 @@ UNMEASURED = -1.0
 
 _BLOCK = 1 << 16  # samples decoded at once: half a megabyte stays in a cache
 _BLOCK_WRITTEN = 1 << 18  # samples encoded at once: two megabytes are worth handing to a thread
+_LARGEST_LOOK = 1 << 28  # bytes
 _CHUNK = 1 << 24  # bytes read at once: a zip's stream makes a copy of each
 
 
@@ -95,7 +108,7 @@ class MerlFile:
         return cls(table.grid, samples)
 
     def to_table(self, name: str = "") -> TabularBrdf:
-        """The samples in 1/sr, NaN where unmeasured."""
+        """The samples in 1/sr, NaN where unmeasured, on the grid that they draw."""
         values = np.empty(self.samples.shape, np.float32)
         for channel, scale in enumerate(SCALES):
             with np.errstate(over="ignore"):
@@ -106,7 +119,7 @@ class MerlFile:
                 "up to 3.4e38. It is probably damaged; compare it with the original download."
             )
         values[self.samples < 0] = np.nan
-        return TabularBrdf(values, self.grid, name=name)
+        return _table(values, self.grid, name)
 
     def write(self, path: str | Path) -> None:
         """Write the file; whole or not at all.
@@ -149,7 +162,19 @@ def _decoded(source: Source) -> TabularBrdf | None:
                 if not np.isfinite(decoded).all():
                     return None
                 decoded[samples < 0] = np.nan
-    return TabularBrdf(values.reshape(3, *grid.shape), grid, name=source.name)
+    return _table(values.reshape(3, *grid.shape), grid, source.name)
+
+
+def _table(values: Table, stated: Grid, name: str) -> TabularBrdf:
+    """The table of samples that lie in a file whose header states this grid."""
+    found = layout(values, stated)
+    if stated.size == MERL.size and found.grid != MERL and not np.isnan(values).any():
+        warnings.warn(
+            f"{name or 'the table'} states {stated}, as many cells as the database's {MERL}, and none is unmeasured, which "
+            f"would tell their order: taken as stated. If it is the database's, write {MERL} into its header.",
+            stacklevel=2,
+        )
+    return TabularBrdf(found.of(values), found.grid, name=name)
 
 
 def write_merl(path: str | Path, table: TabularBrdf) -> None:
@@ -222,7 +247,7 @@ def require_merl_shaped(grid: Grid, name: str = "") -> None:
         axes = ", ".join(axis.angle for axis in grid.axes)
         raise OutputError(
             f"{name or 'the table'} has a grid of {grid} cells over {axes}: a MERL file holds theta_h (square-root "
-            "spaced), theta_d and phi_d. Sample it on such a grid first."
+            "spaced), theta_d and phi_d. Sample it on such a grid first: `halfway convert IN OUT.binary --grid 90x90x180`."
         )
 
 
@@ -239,9 +264,28 @@ def read_grid(source: Source) -> Grid:
             f"{label} is {n_bytes} bytes long: a MERL table begins with three sizes, 12 bytes. "
             "It is truncated, or no MERL table."
         )
+    samples = merl_like(head, n_bytes)
+    if samples not in (None, MERL_SAMPLES):
+        raise FormatError(
+            f"{label} is a MERL table of {samples}: expected {MERL_SAMPLES}, as in the database. "
+            "Convert it with the program that wrote it."
+        )
     sizes = MERL_HEADER.unpack_from(head)
     _require_plausible(sizes, n_bytes, label)
     return Grid.merl(*sizes)
+
+
+def table_grid(source: Source) -> Grid:
+    """The grid of the table; where the header states another than the database's, a look at its samples decides.
+
+    Raises
+    ------
+    FormatError
+        As `read_grid`, and where a sample that was looked at is damaged.
+    """
+    stated = read_grid(source)
+    looked_at = stated != MERL and source.n_bytes <= _LARGEST_LOOK
+    return read_merl_source(source).grid if looked_at else stated
 
 
 def _require_plausible(sizes: tuple[int, ...], n_bytes: int, label: str) -> None:

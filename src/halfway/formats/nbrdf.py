@@ -7,21 +7,25 @@
     f_r = max(0, exp(x2 W3 + b3) - 1)        21 -> 3       linear RGB, 1/sr
 
 In the file the attribute ``layer_names`` lists the layers in order, and each layer's ``weight_names`` its kernel and
-its bias. The activations are not in the file.
+its bias; a whole model has all this below ``model_weights``. Keras 3 saves weights by another scheme, ``layers/NAME/vars/0``
+and ``1``, the layers called by their number. The activations are not in the file.
 
 Source: A. Sztrajman, G. Rainer, T. Ritschel, T. Weyrich, "Neural BRDF Representation and Importance Sampling",
 Computer Graphics Forum 40(6), 2021, section 3.
 """
 
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from math import prod
 from pathlib import Path
 from typing import ClassVar
 
 import numpy as np
 
-from .._types import Angle
+from .._types import Angle, Mask
 from ..brdf import IsotropicModel
 from ..errors import FormatError
+from ..halfdiff import HalfDiff
 from ..origin import Origin
 from .content import HDF5, description
 from .hdf5 import Hdf5Error, Hdf5Object, read_hdf5
@@ -38,6 +42,8 @@ ARCHIVE = Origin(
 """Of the fits that were published."""
 
 _MOST_NAMES = 16
+_CELLS_AT_ONCE = 2048
+"""What the network makes of so many fits into a core's cache: ten times faster than all at once."""
 _SHAPES = ((6, 21), (21,), (21, 21), (21,), (21, 3), (3,))
 
 
@@ -62,18 +68,22 @@ class NeuralBrdf(IsotropicModel):
         self, theta_h: Angle, theta_d: Angle, phi_d: Angle, cos_i: Angle, cos_o: Angle
     ) -> np.ndarray:
         del cos_i, cos_o  # they follow from the angles
-        # The first layer is a sum of a part of theta_h and one of (theta_d, phi_d): on a grid each is small, and only
-        # their sum is large. From there on all is in place: fresh memory costs more than the arithmetic.
+        # The first layer is a sum of a part of theta_h and one of (theta_d, phi_d): on a grid each is small.
         sin_d = np.sin(theta_d)
         of_h = _product(self.W1[:3:2], np.sin(theta_h), np.cos(theta_h))
         of_d = _product(self.W1[3:], sin_d * np.cos(phi_d), sin_d * np.sin(phi_d), np.cos(theta_d))
         of_d += self.b1.reshape(-1, *[1] * theta_d.ndim)
-        x1 = of_h + of_d
-        shape = x1.shape[1:]
-        x1 = _relu(x1.reshape(len(x1), -1))
-        x2 = _relu(_layer(self.W2, self.b2, x1))
-        f = _layer(self.W3, self.b3, x2)
-        return _relu(np.expm1(f, out=f)).reshape(3, *shape)
+        f = np.empty((3, *np.broadcast_shapes(of_h.shape[1:], of_d.shape[1:])), np.float32)
+        for piece in _pieces(f.shape[1:]):
+            x1 = _relu(_cut(of_h, piece) + _cut(of_d, piece))
+            x2 = _relu(_layer(self.W2, self.b2, x1.reshape(len(x1), -1)))
+            f[:, *piece] = _layer(self.W3, self.b3, x2).reshape(3, *x1.shape[1:])
+        return _relu(np.expm1(f, out=f))
+
+    def _at_centres(self, centres: HalfDiff, lit: Mask) -> np.ndarray:
+        del lit  # off the mask the value is not kept
+        theta_h, _, theta_d, phi_d = centres
+        return self.at(theta_h, theta_d, phi_d, theta_h, theta_h)
 
 
 def read_nbrdf(source: str | Path | bytes, *, name: str = "") -> NeuralBrdf:
@@ -131,11 +141,17 @@ def _decode(content: bytes, label: str) -> NeuralBrdf:
 
 def _layers(root: Hdf5Object, label: str) -> list[list[np.ndarray]]:
     """The weights of each layer that has some, in the order in which the network applies them."""
-    layers = _names(root, "layer_names", label)
-    return [
-        [np.asarray(root[layer][weight].array(), np.float32) for weight in _names(root[layer], "weight_names", label)]
-        for layer in layers
-    ]  # fmt: skip
+    if "layers" in root:
+        layers = [root["layers"][name] for name in root["layers"].names]
+        return [_weights(layer["vars"], ("0", "1")) for layer in layers if "0" in layer["vars"]]
+    if "model_weights" in root:
+        root = root["model_weights"]
+    layers = [root[name] for name in _names(root, "layer_names", label)]
+    return [_weights(layer, _names(layer, "weight_names", label)) for layer in layers]
+
+
+def _weights(layer: Hdf5Object, names: Sequence[str]) -> list[np.ndarray]:
+    return [np.asarray(layer[name].array(), np.float32) for name in names]
 
 
 def _names(group: Hdf5Object, attribute: str, label: str) -> list[str]:
@@ -149,6 +165,24 @@ def _names(group: Hdf5Object, attribute: str, label: str) -> list[str]:
 
 def _listed(shapes: tuple[tuple[int, ...], ...]) -> str:
     return ", ".join("x".join(map(str, shape)) for shape in shapes) or "none"
+
+
+def _pieces(shape: tuple[int, ...]) -> Iterator[tuple[slice, ...]]:
+    """Parts of an array of this shape, each of few cells; together all of it."""
+    n, *rest = shape
+    n_below = prod(rest)
+    if n_below > _CELLS_AT_ONCE:
+        below = list(_pieces(tuple(rest)))
+        yield from ((slice(i, i + 1), *piece) for i in range(n) for piece in below)
+        return
+    step = max(1, _CELLS_AT_ONCE // max(1, n_below))
+    yield from ((slice(start, start + step),) for start in range(0, n, step))
+
+
+def _cut(layer: np.ndarray, piece: tuple[slice, ...]) -> np.ndarray:
+    """The features on a part of the grid; an axis along which they do not vary stays as it is."""
+    sizes = layer.shape[1:]
+    return layer[:, *(slice(None) if n == 1 else r for n, r in zip(sizes, piece, strict=False))]
 
 
 def _product(W: np.ndarray, *inputs: Angle) -> np.ndarray:

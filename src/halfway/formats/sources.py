@@ -14,7 +14,7 @@ from io import BufferedIOBase, BufferedReader
 from pathlib import Path, PurePath, PurePosixPath
 from typing import Any, cast
 
-from ..errors import FormatError
+from ..errors import FormatError, shown
 
 UNREADABLE = (
     OSError,
@@ -115,7 +115,7 @@ class FileSource(Source):
 
     @property
     def label(self) -> str:
-        return self.path.name
+        return shown(self.path.name)
 
     @property
     def n_bytes(self) -> int:
@@ -141,11 +141,11 @@ class MemberSource(Source):
 
     @property
     def location(self) -> str:
-        return f"{self.archive.filename}:{_printable(self.member.filename)}"
+        return f"{self.archive.filename}:{shown(self.member.filename)}"
 
     @property
     def label(self) -> str:
-        return _printable(PurePosixPath(self.member.filename).name)
+        return shown(PurePosixPath(self.member.filename).name)
 
     @property
     def n_bytes(self) -> int:
@@ -194,8 +194,3 @@ def _members_by_offset(archive: Path) -> dict[int, MemberSource]:
 def by_name(path: PurePath) -> tuple[tuple[str, ...], str]:
     """Sorts files as the materials in them are called, by path without the suffix."""
     return (*path.parent.parts, path.stem), path.suffix
-
-
-def _printable(name: str) -> str:
-    """A name that came in a file, safe to show: a terminal would obey what is no character."""
-    return "".join(c if c.isprintable() else "?" for c in name)

@@ -1,6 +1,6 @@
 r"""Tensor files: the container of RGL's `.bsdf` materials. Named arrays in one file, little endian.
 
-    b"tensor_file\0"  u8 1  u8 0  u32 n_fields
+    b"tensor_file\0"  u8 1  u8 0  u32 n_fields         the 1 is not looked at: Mitsuba takes any, and others write some
     per field:  u16 length, name, u16 n_dimensions, u8 type, u64 offset, u64 size[n_dimensions]
     the data of each field at its offset, aligned to 8 bytes
 
@@ -140,9 +140,10 @@ class _Header:
             )
         self._position = len(MAGIC)
         major, minor, n_fields = self._unpack("<BBI")
-        if (major, minor) != (1, 0):
+        if minor != 0:
             raise FormatError(
-                f"{self._name} is a tensor file of version {major}.{minor}: only version 1.0 is known."
+                f"{self._name} is a tensor file of version {major}.{minor}: only 1.0 is known, and "
+                "Mitsuba reads none that does not end in 0."
             )
         if n_fields > _MAX_FIELDS:
             raise FormatError(

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from ..brdf import TabularBrdf
-from ..errors import OutputError
+from ..files import suffix_of
 from .merl import write_merl
 from .rgl_writer import write_rgl
 
@@ -18,9 +18,4 @@ def write_brdf(path: str | Path, table: TabularBrdf) -> None:
     OutputError
         When the suffix names no format, the format cannot hold the table, or the file cannot be written.
     """
-    suffix = Path(path).suffix
-    if suffix not in WRITERS:
-        raise OutputError(
-            f"{path} has the suffix {suffix!r}, which names no format: expected {' or '.join(WRITERS)}."
-        )
-    WRITERS[suffix](path, table)
+    WRITERS[suffix_of(Path(path), WRITERS)](path, table)

@@ -243,6 +243,10 @@ def _tabulate(grid: Grid, material: Found) -> _Row | Skipped:
         brdf = material.load()
     except FormatError as error:
         return Skipped.because(error, material.source)
+    if isinstance(brdf, TabularBrdf) and brdf.grid != grid:
+        return Skipped(
+            material.source, f"is a table of {brdf.grid} cells, not {grid}", damaged=True
+        )
     table = brdf.values if isinstance(brdf, TabularBrdf) else brdf.sample_rows(grid, slice(None))
     samples = np.ascontiguousarray(table, "<f4").reshape(3, -1)
     checksum = hashlib.sha256(samples.data).hexdigest()

@@ -24,7 +24,7 @@ import numpy as np
 from jaxtyping import Float32
 
 from .._types import Table
-from ..brdf import TabularBrdf
+from ..brdf import Brdf, TabularBrdf
 from ..errors import LibraryError
 from ..formats import Found
 from ..halfdiff import Grid
@@ -166,6 +166,10 @@ class Library(Streamed):
                 f"{name!r} is not one of the {len(self)} materials of {self.name}: {hint} "
                 f"`halfway library info {quote(self.address)}` lists them."
             ) from None
+
+    def material(self, name: str) -> Brdf:
+        """The material called ``name`` as the library keeps it: its table, or the formula that a table is computed by."""
+        return self.brdf(name)
 
     def brdf(self, name: str) -> TabularBrdf:
         """The table of the material called ``name``."""

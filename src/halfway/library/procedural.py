@@ -63,6 +63,9 @@ class ProceduralLibrary(Library):
     def address(self) -> str:
         return str(self.path.absolute()) if self.path else self.name
 
+    def material(self, name: str) -> Brdf:
+        return self._brdfs[self.index(name)]
+
     def row(self, i: int) -> Table:
         return self._brdfs[i].sample_rows(self.grid, slice(None)).reshape(3, -1)
 

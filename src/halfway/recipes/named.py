@@ -52,8 +52,9 @@ class NamedBrdf(NamedTuple):
             "name": self.label,
             "is": brdf.about,
             "description": self.library.origin.description if self.library else "",
+            # Of an anisotropic one for light along the tangent: as a function it is not asked whether it is one.
             "albedo_20_degrees": directional_albedo(
-                brdf, ALBEDO_ANGLE, n_theta_h=90, n_phi_h=24
+                brdf.eval, ALBEDO_ANGLE, n_theta_h=90, n_phi_h=24
             ).tolist(),
         }
 

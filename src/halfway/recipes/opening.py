@@ -11,6 +11,7 @@ LIB                                 all materials of a library
 """
 
 import json
+import re
 import warnings
 from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
@@ -22,7 +23,7 @@ from ..errors import RecipeError
 from ..formats import read_brdf
 from ..halfdiff import MERL
 from ..library import DEFAULT_LIBRARY, Library, LibraryRef, Origin, ProceduralLibrary, open_library
-from ..locations import SCHEME, Location, RemotePath, to_location
+from ..locations import Location, RemotePath, to_location
 from .blend import Blend
 from .mixing import Mixer
 from .named import NamedBrdf, made_of
@@ -47,16 +48,19 @@ def is_library(word: str) -> bool:
     """Whether a word names a library rather than a material."""
     path = to_location(word)
     return (
-        word.startswith("builtin:")
-        or path.suffix in LIBRARIES
+        re.fullmatch("builtin:[^:]*", word) is not None
+        or path.suffix.lower() in LIBRARIES
         or (bool(word) and (path / "library.json").exists())
     )
 
 
 def split_address(word: str) -> list[str]:
-    """``LIB:NAME`` at the last colon that has a library before it; names may hold others."""
-    ends = [i for i, letter in enumerate(word) if letter == ":"]
-    return next(([word[:i], word[i + 1 :]] for i in reversed(ends) if is_library(word[:i])), [word])
+    """``LIB:NAME`` after the longest library that there is, or could be; names may hold other colons."""
+    ends = [i for i, letter in enumerate(word) if letter == ":" and is_library(word[:i])]
+    if not ends:
+        return [word]
+    end = max(ends, key=lambda i: (len(ends) > 1 and to_location(word[:i]).exists(), i))
+    return [word[:end], word[end + 1 :]]
 
 
 def open_recipe(words: Sequence[str], *, library: str = "") -> tuple[Library, Recipe]:
@@ -70,7 +74,7 @@ def open_recipe(words: Sequence[str], *, library: str = "") -> tuple[Library, Re
     RecipeError
         When the words stand for none.
     """
-    where, rest = split_library(words)
+    where, rest = split_library(split_address(words[0]) if len(words) == 1 else words)
     if len(rest) != 1:
         raise RecipeError(
             f'{len(rest)} recipes are given where one is expected: quote it, such as "gold-paint=0.7, teflon=0.3".'
@@ -103,7 +107,7 @@ def _materials(word: str, elsewhere: str) -> Iterator[NamedBrdf]:
         yield from _route(path / "recipes.json", elsewhere)
     elif path.name == "recipes.json" and path.exists():
         yield from _route(path, elsewhere)
-    elif is_library(word) and ":" not in word.removeprefix("builtin:").rpartition(SCHEME)[2]:
+    elif is_library(word) and len(split_address(word)) == 1:
         yield from _all_of(open_library(word))
     elif isinstance(path, RemotePath) and path.exists():
         raise RecipeError(
@@ -115,7 +119,7 @@ def _materials(word: str, elsewhere: str) -> Iterator[NamedBrdf]:
         yield NamedBrdf.mixed(*open_recipe([word], library=elsewhere), word)
     elif isinstance(path, Path) and path.exists():
         yield _file(path)
-    elif path.suffix in FILES and "=" not in word:
+    elif path.suffix.lower() in FILES and "=" not in word:
         raise RecipeError(f"there is no file {path}: see where you are, or name a material.")
     else:
         words = split_address(word)
@@ -126,7 +130,7 @@ def _all_of(library: Library) -> Iterator[NamedBrdf]:
     for name in library.names:
         recipe = Recipe.of(library, {name: 1.0})
         of = made_of(library, recipe)
-        yield NamedBrdf(name, partial(library.brdf, name), of, name, library, recipe)
+        yield NamedBrdf(name, partial(library.material, name), of, name, library, recipe)
 
 
 def _file(path: Path) -> NamedBrdf:
@@ -137,7 +141,7 @@ def _file(path: Path) -> NamedBrdf:
 
 def _folder(folder: Path) -> Iterator[NamedBrdf]:
     """The files of BRDFs in it."""
-    files = sorted(path for path in folder.iterdir() if path.suffix in FILES)
+    files = sorted(path for path in folder.iterdir() if path.suffix.lower() in FILES)
     if not files:
         raise RecipeError(
             f"{folder} is a folder without recipes.json and without {', '.join(FILES)} files: "
@@ -169,9 +173,12 @@ def _route(path: Location, elsewhere: str) -> Iterator[NamedBrdf]:
 def _of_weights(where: str, text: str) -> tuple[Library, Recipe]:
     """The recipe that weights or a name stand for, of a library that holds the files among its names."""
     library = open_library(where)
-    recipe = Recipe.from_text(library, text if "=" in text else f"{text}=1")
+    alone = text in library.names or "=" not in text
+    recipe = Recipe.of(library, {text: 1.0}) if alone else Recipe.from_text(library, text)
     files = [
-        name for name in recipe.names if name not in library.names and Path(name).suffix in FILES
+        name
+        for name in recipe.names
+        if name not in library.names and Path(name).suffix.lower() in FILES
     ]
     if not files:
         for name in recipe.names:

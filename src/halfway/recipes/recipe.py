@@ -25,8 +25,10 @@ from .blend import Blend
 CHANNELS: tuple[str, str, str] = ("r", "g", "b")
 SUM_TOLERANCE = 1e-6
 """How far a channel's written weights may sum from 1; they are then scaled to sum to 1 exactly."""
-_PART = re.compile(r"\s*([^=].*?)\s*=\s*([^=,]*?)\s*(?:,|$)", re.DOTALL)
-"""A name, its last sign of equality, and a weight."""
+_WEIGHT = re.compile(
+    r"\s*=\s*([-+]?(?:\d+\.?\d*(?:e[-+]?\d+)?|\.\d+(?:e[-+]?\d+)?|nan|inf))\s*(?:,[,\s]*|$)",
+    re.IGNORECASE,
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,27 +108,21 @@ class Recipe:
     def from_text(cls, library: str | LibraryRef | Library, text: str) -> "Recipe":
         """The recipe written as ``"gold-paint=0.7, teflon=0.3"``, or in parts of a hundred.
 
-        A name may hold commas, and signs of equality that no comma follows.
+        A name may hold ``=`` and ``,`` itself: it goes as far as the next weight, or is the longest of the library's that fits.
 
         Raises
         ------
         RecipeError
             As `of`; and when a name has no weight, or two.
         """
+        names = library.names if isinstance(library, Library) else ()
         weights: dict[str, float] = {}
-        *parts, rest = _PART.split(text)
-        left = " ".join([*parts[::3], rest]).strip(" ,")
-        if left or not parts:
-            raise RecipeError(
-                f'{left!r} has no weight: expected NAME=WEIGHT, such as "gold-paint=0.7, teflon=0.3".'
-            )
-        for name, number in zip(parts[1::3], parts[2::3], strict=True):
+        rest = text.strip(" ,")
+        while rest or not weights:
+            name, number, rest = _first_part(rest, names)
             if name in weights:
                 raise RecipeError(f"{name} is given twice in {text!r}: write each material once.")
-            try:
-                weights[name] = float(number)
-            except ValueError:
-                raise RecipeError(f"the weight of {name}, {number!r}, is no number.") from None
+            weights[name] = number
         return cls.of(library, _of_one(weights))
 
     @classmethod
@@ -153,6 +149,23 @@ class Recipe:
         weights = channels[0] if same else dict(zip(CHANNELS, channels, strict=True))
         blend = {} if self.blend is Blend.LINEAR else {"blend": str(self.blend)}
         return {"library": self.library.name, **blend, "weights": weights}
+
+
+def _first_part(text: str, names: Sequence[str]) -> tuple[str, float, str]:
+    """The first name of a text of ``NAME=WEIGHT, ...``, its weight, and the rest."""
+    known = sorted((len(name) for name in names if text.startswith(name)), reverse=True)
+    others = (weight.start() for weight in _WEIGHT.finditer(text))
+    for end in (*known, *(end for end in others if not names or "," not in text[:end])):
+        if weight := _WEIGHT.match(text, end):
+            return text[:end].strip(), float(weight[1]), text[weight.end() :]
+    part = text.partition(",")[0].strip()
+    name, equals, number = (piece.strip() for piece in part.rpartition("="))
+    if equals:
+        raise RecipeError(f"the weight of {name}, {number!r}, is no number: expected such as 0.7.")
+    raise RecipeError(
+        f'{part!r} has no weight: expected NAME=WEIGHT, such as "gold-paint=0.7, teflon=0.3". '
+        "A recipe in a JSON file takes any name."
+    )
 
 
 def _of_one(weights: Mapping[str, float]) -> Mapping[str, float]:

@@ -19,7 +19,7 @@ from PIL import Image, ImageDraw, ImageFont
 
 from ..colour import to_srgb
 from ..errors import OutputError
-from ..files import replacing
+from ..files import replacing, suffix_of
 
 PAPER = 255
 INK = (70, 70, 70)
@@ -44,9 +44,9 @@ def write(path: Path | str, image: np.ndarray, *, exposure: float = 0.0) -> None
         When the suffix is of no known kind, or the file cannot be written.
     """
     path = Path(path)
-    _require_suffix(path, WRITTEN)
+    suffix = suffix_of(path, WRITTEN, what="kind of picture")
     with replacing(path) as temporary:
-        if path.suffix.lower() == ".exr":
+        if suffix == ".exr":
             _write_exr(temporary, image)
         else:
             Image.fromarray(to_8_bit(image, exposure=exposure)).save(temporary, quality=92)
@@ -92,23 +92,16 @@ def animate(
         When the suffix is of no known kind, there are no pictures, ``fps`` is out of range, or the file cannot be written.
     """
     path = Path(path)
-    _require_suffix(path, ANIMATED)
+    suffix = suffix_of(path, ANIMATED, what="kind of animation")
     if not 0 < fps <= MOST_FPS:
         raise OutputError(f"{fps} frames per second are no animation: expected 1 to {MOST_FPS}.")
     coded = (to_8_bit(image, exposure=exposure) for image in images)
     first = next(coded, None)
     if first is None:
         raise OutputError(f"{path} would be an animation of no pictures: expected one or more.")
-    write_frames = _write_mp4 if path.suffix.lower() == ".mp4" else _write_loop
+    write_frames = _write_mp4 if suffix == ".mp4" else _write_loop
     with replacing(path) as temporary:
         write_frames(temporary, chain([first], coded), fps)
-
-
-def _require_suffix(path: Path, known: tuple[str, ...]) -> None:
-    if path.suffix.lower() not in known:
-        raise OutputError(
-            f"{path} has no suffix that says what to write: expected one of {', '.join(known)}."
-        )
 
 
 def _write_loop(path: Path, frames: Iterable[np.ndarray], fps: float) -> None:
