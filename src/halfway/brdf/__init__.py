@@ -5,13 +5,12 @@ from .albedo import directional_albedo
 from .brdf import Brdf, IsotropicModel, require_isotropic
 from .check import ValidityCard, check
 from .fresnel import fresnel
-from .metrics import METRICS, Difference, Metric, difference
+from .metrics import Difference, Metric, difference
 from .quality import Quality, lit_sphere, quality
 from .repair import Repaired, repair
 from .table import TabularBrdf, half_scale, tabulate
 
 __all__ = [
-    "METRICS",
     "Brdf",
     "Difference",
     "IsotropicModel",

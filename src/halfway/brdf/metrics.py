@@ -24,7 +24,7 @@ than 80 degrees from the normal, where measurements are poor and 1/cos is large,
 
 from collections.abc import Callable
 from functools import partial
-from typing import Literal, NamedTuple, get_args
+from typing import Literal, NamedTuple, cast, get_args
 
 import numpy as np
 from jaxtyping import Float
@@ -70,7 +70,7 @@ def difference(f: TabularBrdf, g: TabularBrdf, metric: str = "log") -> Differenc
     if metric == "relative":
         apart = _relative
     else:
-        apart = partial(_root_mean_square, cells, MAPPINGS[metric])
+        apart = partial(_root_mean_square, cells, MAPPINGS[cast("Metric", metric)])
     below, grazing = (
         apart(f.values, g.values, measured & part) for part in (~cells.grazing, cells.grazing)
     )

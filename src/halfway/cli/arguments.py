@@ -75,11 +75,3 @@ def parse_point(text: str) -> np.ndarray:
             f"--point {text!r} is no list of finite numbers: expected such as 1.5,-2e3,0.1."
         )
     return point
-
-
-def parse_size(text: str) -> tuple[int, int]:
-    """The pixels written as ``384`` or ``640x480``."""
-    sides = text.split("x")
-    if not all(side.isdecimal() for side in sides) or len(sides) > 2:
-        raise ArgumentError(f"--size {text!r} is no size: expected pixels, such as 384 or 640x480.")
-    return int(sides[0]), int(sides[-1])

@@ -18,24 +18,27 @@ class Model(StrEnum):
     gltf = "gltf"
 
 
+FittedFile = Annotated[
+    Path | None,
+    typer.Option(
+        "--output", "-o", metavar="FILE", help=".mtlx, .gltf, .glb or .json; of one material."
+    ),
+]
+ModelName = Annotated[
+    Model | None,
+    typer.Option(help="[default: what the file holds: openpbr in .mtlx, gltf in .gltf]"),
+]
+Picture = Annotated[
+    Path | None,
+    typer.Option(metavar="IMAGE", help="The table, the fit and the difference; of one material."),
+]
+
+
 def fit(
     words: What,
-    output: Annotated[
-        Path | None,
-        typer.Option(
-            "--output", "-o", metavar="FILE", help=".mtlx, .gltf, .glb or .json; of one material."
-        ),
-    ] = None,
-    model: Annotated[
-        Model | None,
-        typer.Option(help="[default: what the file holds: openpbr in .mtlx, gltf in .gltf]"),
-    ] = None,
-    picture: Annotated[
-        Path | None,
-        typer.Option(
-            metavar="IMAGE", help="The table, the fit and the difference; of one material."
-        ),
-    ] = None,
+    output: FittedFile = None,
+    model: ModelName = None,
+    picture: Picture = None,
     as_json: AsJson = False,
     library: Library = "",
     force: Force = False,

@@ -45,6 +45,16 @@ GridText = Annotated[
 Force = Annotated[bool, typer.Option("--force", help="Replace what others wrote, or changed.")]
 
 
+def parse_size(text: str) -> tuple[int, int]:
+    """The pixels written as ``384`` or ``640x480``."""
+    from .arguments import ArgumentError
+
+    sides = text.split("x")
+    if not all(side.isdecimal() for side in sides) or len(sides) > 2:
+        raise ArgumentError(f"--size {text!r} is no size: expected pixels, such as 384 or 640x480.")
+    return int(sides[0]), int(sides[-1])
+
+
 def _refuse_url(path: Path) -> Path:
     """A path, which would be a folder called ``s3:`` where a URL is meant."""
     if re.match(r"\w{2,}:/", str(path)):

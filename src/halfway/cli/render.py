@@ -44,24 +44,13 @@ def render(
     halfway render teflon chrome gold-paint -o three.png --scene trio
     """
     from halfway.recipes import open_materials
-    from halfway.render import (
-        QUALITY,
-        Renderer,
-        in_rows,
-        pictures,
-        write_animation,
-        write_folder,
-        write_sheet,
-    )
-
-    from .arguments import parse_size
+    from halfway.render import QUALITY, Renderer, in_rows, write_pictures
 
     rows = in_rows([open_materials([word], library=library) for word in words])
-    materials = [material for row in rows for material in row]
     default = QUALITY[quality]
     renderer = Renderer(
         scene,
-        size=parse_size(size),
+        size=options.parse_size(size),
         spp=default["spp"] if spp is None else spp,
         denoise=bool(default["denoise"]) if denoise is None else denoise,
         seed=seed,
@@ -70,28 +59,16 @@ def render(
         bounces=bounces,
         device=device.value,
     )
-    of = f"of the {renderer.scene.name} scene"
-    if not output.suffix:
-        done = write_folder(
-            output, renderer, materials, suffix=f".{format}", exposure=exposure, work=work()
+    with writing(output if output.suffix else None, force=force):
+        written = write_pictures(
+            output,
+            renderer,
+            rows,
+            labels=[Path(word).name for word in words],
+            most=None if layout is Layout.SHEET else n,
+            suffix=f".{format}",
+            fps=fps,
+            exposure=exposure,
+            work=work(),
         )
-        kept = f", {done.n_kept:,} kept" if done.n_kept else ""
-        say(f"{output}: {_counted(done.n_written)} {of}{kept}")
-        return
-    labels = [Path(word).name for word in words]
-    with writing(output, force=force):
-        if output.suffix.lower() in pictures.ANIMATED and len(materials) > 1:
-            n_frames = write_animation(
-                output, renderer, rows, labels=labels, fps=fps, exposure=exposure, work=work()
-            )
-            say(f"{output}: {n_frames} frames {of}")
-        else:
-            most = None if layout is Layout.SHEET else n
-            n_images = write_sheet(
-                output, renderer, rows, labels=labels, most=most, exposure=exposure, work=work()
-            )
-            say(f"{output}: {_counted(n_images)} {of}")
-
-
-def _counted(n: int) -> str:
-    return f"{n:,} picture" if n == 1 else f"{n:,} pictures"
+    say(f"{output}: {written}")

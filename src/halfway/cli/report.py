@@ -3,7 +3,7 @@
 import json
 from contextlib import nullcontext
 from dataclasses import asdict
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -11,21 +11,25 @@ from ..locations import DEFAULT_LIBRARY
 from .console import say, show, working
 from .options import Force, Lib, Scheduler
 
+if TYPE_CHECKING:
+    from ..library import Library
+
+Folder = Annotated[
+    str | None,
+    typer.Option("--output", "-o", metavar="DIR", help="A folder, or its URL. [default: report]"),
+]
+Pairs = Annotated[
+    int,
+    typer.Option(
+        help="Pairs of materials that spaces are compared on; 0 compares none, -1 takes all."
+    ),
+]
+
 
 def report(
     lib: Lib = DEFAULT_LIBRARY,
-    output: Annotated[
-        str | None,
-        typer.Option(
-            "--output", "-o", metavar="DIR", help="A folder, or its URL. [default: report]"
-        ),
-    ] = None,
-    pairs: Annotated[
-        int,
-        typer.Option(
-            help="Pairs of materials that spaces are compared on; 0 compares none, -1 takes all."
-        ),
-    ] = 0,
+    output: Folder = None,
+    pairs: Pairs = 0,
     seed: Annotated[int, typer.Option(help="Of the sample of pairs.")] = 0,
     as_json: Annotated[
         bool,
@@ -47,7 +51,7 @@ def report(
     halfway report builtin:synthetic-2000 --dry-run
     """
     from halfway.batch import filling
-    from halfway.components import Pca, PcaPlan
+    from halfway.components import Pca
     from halfway.export import Report, write_report
     from halfway.judge import compare_spaces
     from halfway.library import open_library
@@ -55,9 +59,7 @@ def report(
 
     library = open_library(lib)
     if dry_run:
-        plan = PcaPlan.of(library).timed(library)
-        facts = {"format": 1, **asdict(plan)}
-        print(json.dumps(facts, indent=1) if as_json else "\n".join(plan.lines()))
+        _say_plan(library, as_json)
         return
     output = output or ("" if as_json else "report")
     folder = to_location(output)
@@ -76,3 +78,11 @@ def report(
         show(f"{library.name}: {len(library)} materials{about}", *report.lines())
     if output:
         say(f"{output}: report.json, eigenvalues and triangulation (png, svg)")
+
+
+def _say_plan(library: "Library", as_json: bool) -> None:
+    from halfway.components import PcaPlan
+
+    plan = PcaPlan.of(library).timed(library)
+    facts = {"format": 1, **asdict(plan)}
+    print(json.dumps(facts, indent=1) if as_json else "\n".join(plan.lines()))

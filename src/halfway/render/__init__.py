@@ -7,7 +7,7 @@ from .fits import fit_sheet
 from .frames import Frame, write_frames
 from .renderer import QUALITY, Renderer
 from .scenes import SCENES, Scene
-from .sheets import in_rows, write_animation, write_folder, write_sheet
+from .sheets import in_rows, write_pictures
 from .studio import studio
 from .variant import register
 
@@ -25,8 +25,6 @@ __all__ = [
     "pictures",
     "register",
     "studio",
-    "write_animation",
-    "write_folder",
     "write_frames",
-    "write_sheet",
+    "write_pictures",
 ]

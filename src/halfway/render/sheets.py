@@ -29,14 +29,58 @@ def in_rows(groups: Sequence[Sequence[T]]) -> list[list[T]]:
     return [[item for group in groups for item in group]]
 
 
-def write_folder(
+def write_pictures(
+    path: Path,
+    renderer: Renderer,
+    rows: Rows,
+    *,
+    labels: Sequence[str] = (),
+    most: int | None = None,
+    suffix: str = ".png",
+    fps: float = 12,
+    exposure: float = 0.0,
+    work: Work = HERE,
+) -> str:
+    """Write pictures of materials, and say what was written.
+
+    Parameters
+    ----------
+    path : path
+        A picture of all; an animation, where its suffix is one's and there are several; without a suffix a folder with a
+        file of each, in which what an earlier run made of the same is kept.
+    labels : sequence of str
+        What each of several rows is.
+    most : int, optional
+        Materials of a row in one picture, evenly chosen; None makes a sheet about as wide as high.
+    suffix : str
+        Of the files in a folder.
+
+    Raises
+    ------
+    OutputError
+        When the suffix is of no known kind, or the files cannot be written.
+    """
+    if not path.suffix:
+        materials = _flat(rows)
+        done = _write_folder(path, renderer, materials, suffix, exposure, work)
+        text = _counted(done.n_written, "picture")
+        kept = f", {done.n_kept:,} kept" if done.n_kept else ""
+    elif path.suffix.lower() in pictures.ANIMATED and len(_flat(rows)) > 1:
+        n_frames = _write_animation(path, renderer, rows, labels, fps, exposure, work)
+        text, kept = _counted(n_frames, "frame"), ""
+    else:
+        n_images = _write_sheet(path, renderer, rows, labels, most, exposure, work)
+        text, kept = _counted(n_images, "picture"), ""
+    return f"{text} of the {renderer.scene.name} scene{kept}"
+
+
+def _write_folder(
     folder: Path,
     renderer: Renderer,
     materials: Sequence[NamedBrdf],
-    *,
-    suffix: str = ".png",
-    exposure: float = 0.0,
-    work: Work = HERE,
+    suffix: str,
+    exposure: float,
+    work: Work,
 ) -> Written:
     """Write a picture of each material, called as it is; those that an earlier run made are kept."""
     picture = _pictures(renderer, materials, work)
@@ -47,15 +91,14 @@ def write_folder(
     return write_frames(folder, renderer, frames, exposure=exposure, work=work)
 
 
-def write_animation(
+def _write_animation(
     path: Path,
     renderer: Renderer,
     rows: Rows,
-    *,
-    labels: Sequence[str] = (),
-    fps: float = 12,
-    exposure: float = 0.0,
-    work: Work = HERE,
+    labels: Sequence[str],
+    fps: float,
+    exposure: float,
+    work: Work,
 ) -> int:
     """Write an animation whose frames show a material of each row, side by side under ``labels``; gives their number."""
     picture = _pictures(renderer, _flat(rows), work)
@@ -71,20 +114,19 @@ def write_animation(
     return len(columns)
 
 
-def write_sheet(
+def _write_sheet(
     path: Path,
     renderer: Renderer,
     rows: Rows,
-    *,
-    labels: Sequence[str] = (),
-    most: int | None = None,
-    exposure: float = 0.0,
-    work: Work = HERE,
+    labels: Sequence[str],
+    most: int | None,
+    exposure: float,
+    work: Work,
 ) -> int:
     """Write one picture of all materials; gives how many it is made of.
 
     They dress a scene together where it takes so many. Else each has a picture of its own: rows of at most ``most``,
-    evenly chosen, or, without ``most``, a sheet about as wide as high. ``labels`` say what each of several rows is.
+    evenly chosen, or, without ``most``, a sheet about as wide as high.
     """
     rows = [_spread(row, most) if most else row for row in rows]
     materials = _flat(rows)
@@ -137,3 +179,7 @@ def _titles(rows: Rows, labels: Sequence[str]) -> list[str]:
 
 def _flat(rows: Rows) -> list[NamedBrdf]:
     return [material for row in rows for material in row]
+
+
+def _counted(n: int, what: str) -> str:
+    return f"{n:,} {what}" if n == 1 else f"{n:,} {what}s"
