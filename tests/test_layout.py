@@ -8,7 +8,7 @@ import pytest
 from numpy.testing import assert_array_equal
 
 from halfway import MERL, Grid
-from halfway.brdf.layout import horizon, layout
+from halfway.brdf.layout import horizon, layout_of
 from halfway.halfdiff import Axis, HalfDiff, cosines
 
 SHAPES = [(6, 6, 12), (8, 12, 20), (12, 10, 16), (20, 20, 20)]
@@ -22,7 +22,7 @@ def drawn(grid, seed=0):
 
 def assert_read_as(array, values, grid):
     """An array whose sizes are stated as they are is the table ``values`` on ``grid``."""
-    found = layout(array, Grid.merl(*array.shape[1:]))
+    found = layout_of(array, Grid.merl(*array.shape[1:]))
     assert found.grid == grid, found
     assert_array_equal(found.of(array), values)
 
@@ -79,7 +79,7 @@ def test_phi_d_may_cover_a_whole_turn_whose_halves_differ():
     grid = Grid((theta_h, theta_d, replace(phi_d, stop=2 * np.pi)))
     assert_read_as(drawn(grid), drawn(grid), grid)
     assert (
-        str(layout(drawn(grid), Grid.merl(12, 10, 16)))
+        str(layout_of(drawn(grid), Grid.merl(12, 10, 16)))
         == "12 x 10 x 16 cells, phi_d over a whole turn"
     )
 
@@ -88,13 +88,15 @@ def test_theta_h_may_be_evenly_spaced():
     theta_h, *others = Grid.merl(12, 10, 16).axes
     grid = Grid((replace(theta_h, power=1), *others))
     assert_read_as(drawn(grid), drawn(grid), grid)
-    assert str(layout(drawn(grid), Grid.merl(12, 10, 16))).endswith("cells, theta_h evenly spaced")
+    assert str(layout_of(drawn(grid), Grid.merl(12, 10, 16))).endswith(
+        "cells, theta_h evenly spaced"
+    )
 
 
 def test_a_layout_says_what_is_unusual_of_it():
     grid = Grid.merl(8, 12, 20)
     array = np.concatenate([drawn(grid)] * 2, axis=3).transpose(0, 3, 1, 2)
-    found = layout(np.ascontiguousarray(array), Grid.merl(*array.shape[1:]))
+    found = layout_of(np.ascontiguousarray(array), Grid.merl(*array.shape[1:]))
     assert str(found) == (
         "8 x 12 x 20 cells, stored in the order phi_d, theta_h, theta_d, phi_d written 2 times"
     )

@@ -5,7 +5,8 @@ from .albedo import directional_albedo
 from .brdf import Brdf, IsotropicModel, require_isotropic
 from .check import ValidityCard, check
 from .fresnel import fresnel
-from .metrics import Difference, Metric, difference
+from .layout import layout_of
+from .metrics import Difference, difference
 from .quality import Quality, lit_sphere, quality
 from .repair import Repaired, repair
 from .table import TabularBrdf, half_scale, tabulate
@@ -14,7 +15,6 @@ __all__ = [
     "Brdf",
     "Difference",
     "IsotropicModel",
-    "Metric",
     "Quality",
     "Repaired",
     "TabularBrdf",
@@ -24,6 +24,7 @@ __all__ = [
     "directional_albedo",
     "fresnel",
     "half_scale",
+    "layout_of",
     "lit_sphere",
     "metrics",
     "quadrature",

@@ -24,7 +24,7 @@ from ..colour import LUMINANCE
 from ..halfdiff import MERL, Grid, HalfDiff, from_half_diff
 from .albedo_operator import albedos
 from .brdf import Brdf, require_isotropic
-from .layout import MASK_TOLERANCE, horizon, layout
+from .layout import MASK_TOLERANCE, horizon, layout_of
 from .quadrature import spread_angles
 from .table import TabularBrdf, tabulate
 
@@ -174,7 +174,7 @@ def _mask_error(measured: Mask, grid: Grid) -> float:
 
 
 def _other_layout(table: TabularBrdf) -> str:
-    found = layout(table.values, table.grid)
+    found = layout_of(table.values, table.grid)
     return "" if found.is_plain and found.grid == table.grid else str(found)
 
 

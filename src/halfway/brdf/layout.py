@@ -86,7 +86,7 @@ def horizon(grid: Grid) -> Horizon:
     return masks
 
 
-def layout(values: Table, grid: Grid) -> Layout:
+def layout_of(values: Table, grid: Grid) -> Layout:
     """How an array lies that is said to be on ``grid``: so, unless its unmeasured cells draw another horizon, and this alone.
 
     On a grid of another kind than a MERL file's, so in any case.

@@ -4,7 +4,7 @@ import json
 import sys
 from enum import StrEnum
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, get_args
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -132,7 +132,7 @@ def diff(
     halfway diff gold.binary gold.bsdf
     halfway diff cherry-235 tungsten-carbide --metric log
     """
-    from halfway.brdf import Metric, difference, lit_sphere, quality
+    from halfway.brdf import difference, lit_sphere, metrics, quality
     from halfway.recipes import open_materials
 
     from .arguments import ArgumentError, parse_grid
@@ -142,7 +142,7 @@ def diff(
         raise ArgumentError(f"{a} and {b} are {len(materials)} materials: name two.")
     first = materials[0].table(parse_grid(grid))
     second = materials[1].table(first.grid)
-    names = [metric] if metric else get_args(Metric)
+    names = [metric] if metric else metrics.METRICS
     differences = {name: difference(first, second, name)._asdict() for name in names}
     sphere = quality(lit_sphere(second), lit_sphere(first))
     if as_json:

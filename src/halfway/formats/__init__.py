@@ -1,7 +1,7 @@
 """File formats of BRDFs. A file is what its first bytes say, whatever its name."""
 
 from .content import merl_bytes
-from .find import Found, Skipped, find_brdfs, read_brdf, read_nbrdf_archive
+from .find import Skipped, SourceBrdf, find_brdfs, read_brdf, read_nbrdf_archive
 from .merl import MerlFile, encode_header, read_merl, write_merl, write_samples
 from .nbrdf import NeuralBrdf, read_nbrdf
 from .rgl import RglBrdf
@@ -14,11 +14,11 @@ from .write import write_brdf
 __all__ = [
     "UNREADABLE",
     "WAVELENGTHS",
-    "Found",
     "MerlFile",
     "NeuralBrdf",
     "RglBrdf",
     "Skipped",
+    "SourceBrdf",
     "encode_header",
     "find_brdfs",
     "merl_bytes",

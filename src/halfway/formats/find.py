@@ -28,7 +28,7 @@ _EXPECTED = "expected a MERL table, a neural BRDF (.h5) or an RGL material (.bsd
 
 
 @dataclass(frozen=True)
-class Found:
+class SourceBrdf:
     """A BRDF that is there to be loaded. Of what is large, nothing but its header has been read."""
 
     name: str
@@ -90,7 +90,7 @@ def read_brdf(path: str | Path) -> Brdf:
 
 def find_brdfs(
     sources: Iterable[str | Path], *, skip_damaged: bool = False
-) -> tuple[list[Found], list[Skipped]]:
+) -> tuple[list[SourceBrdf], list[Skipped]]:
     """The BRDFs in files, folders (with their subfolders), zips and ``builtin:NAME``, and what else is in there.
 
     Sources keep their order; what is in a folder or a zip is sorted by path. A BRDF is called by its file's name
@@ -101,7 +101,7 @@ def find_brdfs(
     FormatError
         When a source does not exist, when one that is a single file is no BRDF, or when two BRDFs have the same name.
     """
-    found: dict[str, Found] = {}
+    found: dict[str, SourceBrdf] = {}
     skipped: list[Skipped] = []
     for source in sources:
         for item in _items(source, skip_damaged):
@@ -138,7 +138,7 @@ def read_nbrdf_archive(path: str | Path) -> ModelSet:
     return ModelSet(archive.name, ARCHIVE, networks)
 
 
-def _items(source: str | Path, skip_damaged: bool) -> Iterator[Found | Skipped]:
+def _items(source: str | Path, skip_damaged: bool) -> Iterator[SourceBrdf | Skipped]:
     if str(source).startswith(BUILTIN_PREFIX):
         yield from _built_in(str(source).removeprefix(BUILTIN_PREFIX))
         return
@@ -158,10 +158,10 @@ def _items(source: str | Path, skip_damaged: bool) -> Iterator[Found | Skipped]:
         yield Skipped.because(error, str(path))
 
 
-def _built_in(name: str) -> Iterator[Found]:
+def _built_in(name: str) -> Iterator[SourceBrdf]:
     models = builtin(name)
     for material, model in models.models.items():
-        yield Found(
+        yield SourceBrdf(
             material,
             f"{BUILTIN_PREFIX}{name}",
             None,
@@ -184,15 +184,15 @@ def _files(folder: Path) -> list[Path]:
     return sorted(files, key=by_name)
 
 
-def _file(path: Path) -> Found | Skipped:
+def _file(path: Path) -> SourceBrdf | Skipped:
     return _examine(str(path), path.name, lambda: FileSource(path))
 
 
-def _member(member: MemberSource) -> Found | Skipped:
+def _member(member: MemberSource) -> SourceBrdf | Skipped:
     return _examine(member.location, member.label, lambda: member)
 
 
-def _examine(location: str, label: str, open_source: Callable[[], Source]) -> Found | Skipped:
+def _examine(location: str, label: str, open_source: Callable[[], Source]) -> SourceBrdf | Skipped:
     """What a file among others is; one that is no BRDF is no error there."""
     if label.startswith("."):
         return Skipped(location, "is hidden")
@@ -205,7 +205,7 @@ def _examine(location: str, label: str, open_source: Callable[[], Source]) -> Fo
         return Skipped.because(error, location, damaged=claimed in ("merl", "nbrdf", "rgl"))
 
 
-def _inspect(source: Source) -> Found:
+def _inspect(source: Source) -> SourceBrdf:
     """What a source is, from its first bytes and its size.
 
     Raises
@@ -254,7 +254,7 @@ def _found(
     *,
     name: str = "",
     origin: Origin = Origin(),  # noqa: B008 (frozen)
-) -> Found:
-    return Found(
+) -> SourceBrdf:
+    return SourceBrdf(
         name or source.name, source.location, grid, origin, partial(read, source), source.sha256
     )

@@ -27,8 +27,7 @@ from pathlib import Path
 import numpy as np
 
 from .._types import Samples, Table
-from ..brdf import TabularBrdf
-from ..brdf.layout import layout
+from ..brdf import TabularBrdf, layout_of
 from ..errors import FormatError, OutputError
 from ..files import replacing
 from ..halfdiff import MERL, Grid
@@ -167,7 +166,7 @@ def _decoded(source: Source) -> TabularBrdf | None:
 
 def _table(values: Table, stated: Grid, name: str) -> TabularBrdf:
     """The table of samples that lie in a file whose header states this grid."""
-    found = layout(values, stated)
+    found = layout_of(values, stated)
     if stated.size == MERL.size and found.grid != MERL and not np.isnan(values).any():
         warnings.warn(
             f"{name or 'the table'} states {stated}, as many cells as the database's {MERL}, and none is unmeasured, which "

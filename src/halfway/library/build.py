@@ -19,7 +19,7 @@ from .._types import Table
 from ..brdf import TabularBrdf
 from ..errors import FormatError, LibraryError, OutputError
 from ..files import lock, require_space, scratch_folder
-from ..formats import Found, Skipped, find_brdfs
+from ..formats import Skipped, SourceBrdf, find_brdfs
 from ..halfdiff import MERL, Grid
 from ..locations import BUILTIN_PREFIX, Location, RemotePath, to_location
 from ..origin import Origin
@@ -140,7 +140,7 @@ def _refuse_foreign_folder(path: Location) -> None:
         )
 
 
-def find_materials(sources: Sequence[str | Location]) -> tuple[list[Found], list[Skipped]]:
+def find_materials(sources: Sequence[str | Location]) -> tuple[list[SourceBrdf], list[Skipped]]:
     """The materials of the libraries among the sources, then the BRDFs in the others.
 
     Raises
@@ -172,7 +172,7 @@ def _is_library(source: str | Location) -> bool:
     return location.suffix == compact_file.SUFFIX or is_stored(location)
 
 
-def _common_grid(materials: Sequence[Found], wanted: Grid | None) -> Grid:
+def _common_grid(materials: Sequence[SourceBrdf], wanted: Grid | None) -> Grid:
     grids = {item.grid: item.name for item in reversed(materials) if item.grid is not None}
     if wanted is not None:
         grids = {wanted: "the library"} | grids
@@ -185,7 +185,7 @@ def _common_grid(materials: Sequence[Found], wanted: Grid | None) -> Grid:
     return next(iter(grids), MERL)
 
 
-def _common_origin(materials: Sequence[Found], given: Origin) -> Origin:
+def _common_origin(materials: Sequence[SourceBrdf], given: Origin) -> Origin:
     """What the materials say of themselves, and a person of their source and licence."""
     own = Origin.of_all(dict.fromkeys(material.origin for material in materials))
     return Origin(
@@ -196,7 +196,7 @@ def _common_origin(materials: Sequence[Found], given: Origin) -> Origin:
 
 
 def _write_tables(
-    path: Path, materials: Sequence[Found], grid: Grid, work: Work
+    path: Path, materials: Sequence[SourceBrdf], grid: Grid, work: Work
 ) -> tuple[list[Entry], list[Skipped]]:
     """Write the tables of all materials that can be read, and tell of the others."""
     n, n_bytes = len(materials), 4 * grid.size
@@ -238,7 +238,7 @@ class _Row(NamedTuple):
     samples: Table
 
 
-def _tabulate(grid: Grid, material: Found) -> _Row | Skipped:
+def _tabulate(grid: Grid, material: SourceBrdf) -> _Row | Skipped:
     try:
         brdf = material.load()
     except FormatError as error:

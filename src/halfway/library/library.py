@@ -26,7 +26,7 @@ from jaxtyping import Float32
 from .._types import Table
 from ..brdf import Brdf, TabularBrdf
 from ..errors import LibraryError
-from ..formats import Found
+from ..formats import SourceBrdf
 from ..halfdiff import Grid
 from ..locations import Location, absolute
 from ..origin import Origin
@@ -136,10 +136,10 @@ class Library(Streamed):
             f"{self.name} is computed when asked for: expected a .brdflib folder or a .brdfc file, which may be damaged."
         )
 
-    def materials(self) -> list[Found]:
+    def materials(self) -> list[SourceBrdf]:
         """Its materials, to build another library of."""
         return [
-            Found(
+            SourceBrdf(
                 name, source, self.grid, self.origin, partial(self.brdf, name), partial(str, sha256)
             )
             for name, (source, sha256) in zip(self.names, self._sources(), strict=True)

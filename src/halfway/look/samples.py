@@ -18,7 +18,7 @@ import numpy as np
 from jaxtyping import Float, Float32, Float64, Int
 
 from .._types import Mask
-from ..brdf import Metric, metrics, quadrature
+from ..brdf import metrics, quadrature
 from ..errors import LibraryError
 from ..halfdiff import Grid
 from ..library import Library
@@ -100,7 +100,7 @@ class CellSamples:
     def features(
         self,
         values: Float32[np.ndarray, "3 *k n_cells"],
-        metric: Metric = "log",
+        metric: metrics.Metric = "log",
         *,
         by: Measure = "solid angle",
     ) -> Float32[np.ndarray, "*k n_features"]:

@@ -5,14 +5,14 @@ demonstrate(folder, library)    its main run alone, with pictures
 """
 
 from .demo import NEW_MATERIALS, demonstrate
-from .experiment import Experiment, RunFound
+from .experiment import Experiment, MeasuredRun
 from .reproduction import Reproduction, reproduce
 
 __all__ = [
     "NEW_MATERIALS",
     "Experiment",
+    "MeasuredRun",
     "Reproduction",
-    "RunFound",
     "demonstrate",
     "reproduce",
 ]

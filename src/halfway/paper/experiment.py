@@ -26,7 +26,7 @@ LEAST_MATERIALS = 6
 
 
 @dataclass(frozen=True)
-class RunFound:
+class MeasuredRun:
     """One navigation, measured on the small lit sphere of `halfway.look.Looks`."""
 
     figure: int
@@ -77,7 +77,7 @@ class Experiment:
         """The way of a run in one of the spaces."""
         return Route.through(self.spaces[space], self.stops[run.figure])
 
-    def measure(self, run: Run) -> RunFound:
+    def measure(self, run: Run) -> MeasuredRun:
         """How direct and how even a run is in each space."""
         stops = self.stops[run.figure]
         pair = np.array([[self.library.index(stop) for stop in stops]])
@@ -85,7 +85,7 @@ class Experiment:
             name: evaluate(space, self.bench, pair, paces={"uniform": uniform})
             for name, space in self.spaces.items()
         }
-        return RunFound(
+        return MeasuredRun(
             run.figure,
             stops,
             run.stops,

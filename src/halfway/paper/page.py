@@ -13,7 +13,7 @@ from .reported import (
     SMALL_EIGENVALUE,
     TABLE_1,
 )
-from .reproduction import Reproduction, RunFound
+from .reproduction import MeasuredRun, Reproduction
 
 STYLE = """
 body { max-width: 62rem; margin: 3rem auto; padding: 0 1.5rem; color: #222; background: #fff;
@@ -200,11 +200,11 @@ def _differences(found: Reproduction) -> str:
     )
 
 
-def _way(run: RunFound) -> str:
+def _way(run: MeasuredRun) -> str:
     return " to ".join(run.stops)
 
 
-def _stood_in(run: RunFound) -> str:
+def _stood_in(run: MeasuredRun) -> str:
     if run.stops == run.stops_in_paper:
         return ""
     return f"*The library lacks the paper's {' and '.join(run.stops_in_paper)}; two others stand in for them.* "

@@ -19,7 +19,7 @@ from ..library import Library
 from ..recipes import Mixer
 from ..render import BasisPictures, Renderer, pictures
 from ..tasks import HERE, Work
-from .experiment import SPACES, Experiment, RunFound, largest_share_after, n_components_below
+from .experiment import SPACES, Experiment, MeasuredRun, largest_share_after, n_components_below
 from .reported import (
     FABRICS,
     FAR_APART,
@@ -51,7 +51,7 @@ class Reproduction:
     """Components until every further eigenvalue is below .001 of the sum of its channel."""
     share_after_36: float
     """The largest share that an eigenvalue after the paper's 36 has of the sum of its channel."""
-    runs: tuple[RunFound, ...]
+    runs: tuple[MeasuredRun, ...]
     largest_step: dict[str, float]
     """Of the run of Figure 7, in CIEDE2000, with 51 materials and with the fine list of t."""
     fine_ts: tuple[float, ...]
