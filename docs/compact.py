@@ -10,11 +10,11 @@ from pathlib import Path
 import numpy as np
 
 from halfway import build_library
+from halfway.colour import to_srgb
 from halfway.components import compact_library
-from halfway.export.figures import STYLE
+from halfway.export import figures
 from halfway.library import Coding, CompactLibrary, Library
-from halfway.look import Looks
-from halfway.look.appearance import appearance, ciede2000_difference, flip, shown
+from halfway.look import Looks, appearance, ciede2000_difference, flip, shown
 from halfway.tasks import Work
 
 CURVES = {
@@ -70,9 +70,8 @@ def pictures_apart(images: Looks, made: Library) -> dict[str, tuple[float, float
 
 
 def encoded(rgb: np.ndarray) -> np.ndarray:
-    """What a display shows of linear values, in sRGB's transfer function."""
-    x = shown(rgb)
-    return np.where(x <= 0.0031308, 12.92 * x, 1.055 * x ** (1 / 2.4) - 0.055)
+    """What a display shows of linear values, as its code values."""
+    return to_srgb(shown(rgb))
 
 
 def square(images: Looks, pixels: np.ndarray) -> np.ndarray:
@@ -109,11 +108,11 @@ def draw(rows: dict[str, list[tuple[float, float, float]]]) -> None:
     import matplotlib as mpl
     from matplotlib.figure import Figure
 
-    with mpl.rc_context(STYLE):
+    with mpl.rc_context(figures.STYLE):
         figure = Figure(figsize=(9, 4.2), layout="constrained")
         left, right = figure.subplots(1, 2)
-        for name, places in rows.items():
-            size, relative, psnr = zip(*places, strict=True)
+        for name, measured in rows.items():
+            size, relative, psnr = zip(*measured, strict=True)
             left.plot(size, relative, "o-", label=name)
             right.plot(size, psnr, "o-", label=name)
         left.set(

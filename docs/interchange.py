@@ -12,14 +12,13 @@ from pathlib import Path
 
 import numpy as np
 
-from halfway import MERL, Brdf, Route, open_library, tabulate
+from halfway import MERL, Brdf, mix, open_library, tabulate
 from halfway.brdf import check
 from halfway.brdf.quality import lit_sphere, quality
-from halfway.export.scenes import write_scene
+from halfway.export import write_scene
 from halfway.formats import read_brdf, read_rgl, write_merl, write_rgl
-from halfway.recipes import mix
 from halfway.render.variant import load_mitsuba, register
-from halfway.space import make_space
+from halfway.space import route
 
 FOLDER = Path(__file__).parent / "images"
 STOPS = "cherry-235", "tungsten-carbide"
@@ -40,9 +39,8 @@ def main(rgl: str = "") -> None:
 def picture(folder: Path) -> None:
     """The middle of a route: stock Mitsuba in a process without this package, beside the table itself."""
     library = open_library("builtin:merl-abc")
-    route = Route.through(make_space("anchored", library), STOPS)
-    recipe = route.recipes([0.5])[0]
-    scene = write_scene(folder, mix(library, recipe), "mitsuba", name="the middle of a route")
+    middle = mix(library, route(library, *STOPS, pace="uniform").recipe(0.5))
+    scene = write_scene(folder, middle, "mitsuba", name="the middle of a route")
     for file in folder.glob("*.xml"):
         text = file.read_text().replace('value="512"', f'value="{SIZE}"')
         file.write_text(text.replace('name="sample_count" value="64"', f'name="sample_count" value="{SPP}"'))  # fmt: skip

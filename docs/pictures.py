@@ -4,10 +4,8 @@ from pathlib import Path
 
 import numpy as np
 
-from halfway import Route, open_library
-from halfway.look import Looks
+import halfway
 from halfway.render import BasisPictures, Renderer, pictures
-from halfway.space import make_space, perceptual
 
 FOLDER = Path(__file__).parent / "images"
 ROUTES = (
@@ -20,18 +18,16 @@ N_COLUMNS = 7
 
 def main() -> None:
     """Write the strip at the top of the README, and the paper's space above ours for the page on navigation."""
-    library = open_library("builtin:merl-abc")
-    images = Looks.fit(library)
-    spaces = {name: make_space(name, library) for name in ("anchored", "paper")}
+    library = halfway.open_library("builtin:merl-abc")
     basis = BasisPictures(Renderer("teapot", size=(288, 240), spp=96, denoise=True), library.brdf)
 
-    def row(route: Route) -> list[np.ndarray]:
+    def row(route: halfway.Route) -> list[np.ndarray]:
         return [basis.picture(r) for r in route.recipes(route.steps(N_COLUMNS))]
 
-    ours = [perceptual(Route.through(spaces["anchored"], stops), images) for stops in ROUTES]
+    ours = [halfway.route(library, *stops) for stops in ROUTES]
     tiles = [picture for route in ours for picture in row(route)]
     pictures.write(FOLDER / "routes.webp", pictures.sheet(tiles, columns=N_COLUMNS))
-    theirs = Route.through(spaces["paper"], ROUTES[1])
+    theirs = halfway.route(library, *ROUTES[1], space="paper", pace="uniform")
     labels = [
         f"{space}, {t:.2f}" for space in ("paper", "anchored") for t in theirs.steps(N_COLUMNS)
     ]

@@ -6,11 +6,9 @@ from pathlib import Path
 
 import numpy as np
 
-from halfway import Library, Route, open_library
-from halfway.look import Looks
-from halfway.recipes import mix
+import halfway
+from halfway import Library, mix, open_library
 from halfway.render import QUALITY, BasisPictures, Renderer, pictures
-from halfway.space import make_space, perceptual
 
 FOLDER = Path(__file__).parent / "images"
 SHOWN = {
@@ -83,9 +81,8 @@ def lookups(library: Library) -> None:
 
 def route(library: Library) -> None:
     """A route's frames against the renders of the measured materials it touches, at 512 x 512."""
-    images = Looks.fit(library)
-    found = perceptual(Route.through(make_space("anchored", library), STOPS), images)
-    recipes = found.recipes(found.steps(N_FRAMES))
+    way = halfway.route(library, *STOPS)
+    recipes = way.recipes(way.steps(N_FRAMES))
     names = sorted({name for recipe in recipes for name in recipe.names})
     renderer = Renderer("teapot", size=(512, 512), spp=64)
     renderer.picture(library.brdf(names[0]))  # compiles, and renders the backdrop

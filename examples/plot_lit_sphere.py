@@ -10,7 +10,7 @@ import numpy as np
 
 from halfway import open_library
 from halfway.look import PACING_SCENE, SphereOperator
-from halfway.render.pictures import to_srgb
+from halfway.render import pictures
 
 library = open_library("builtin:merl-abc")
 names = ("cherry-235", "blue-fabric", "gold-paint", "chrome")
@@ -24,7 +24,7 @@ on_sphere = PACING_SCENE.mask()
 figure, axes = plt.subplots(1, len(names), figsize=(9, 2.6), layout="constrained")
 for ax, name in zip(axes, names, strict=True):
     picture = np.full((*on_sphere.shape, 3), 255, np.uint8)
-    picture[on_sphere] = to_srgb(operator.picture(library.row(library.index(name))))
+    picture[on_sphere] = pictures.to_8_bit(operator.picture(library.row(library.index(name))))
     ax.imshow(picture, interpolation="bicubic")
     ax.set_title(name)
     ax.axis("off")

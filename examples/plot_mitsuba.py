@@ -7,11 +7,10 @@ Three parts gold paint and seven of teflon, mixed into a full table and rendered
 
 import matplotlib.pyplot as plt
 
-from halfway import Recipe, mix, open_library
+from halfway import mix, open_library
 from halfway.render import Renderer, pictures
 
 library = open_library("builtin:merl-abc")
-recipe = Recipe.from_text(library.name, "gold-paint=0.3, teflon=0.7")
 
 # %%
 # The first picture compiles the scene; the next ones only take the table.
@@ -19,7 +18,7 @@ recipe = Recipe.from_text(library.name, "gold-paint=0.3, teflon=0.7")
 renderer = Renderer("teapot", size=(320, 260), spp=32)
 shown = {
     "gold-paint": library.brdf("gold-paint"),
-    "the mix": mix(library, recipe),
+    "the mix": mix(library, "gold-paint=0.3, teflon=0.7"),
     "teflon": library.brdf("teflon"),
 }
 strip = pictures.strip([renderer.picture(table) for table in shown.values()], labels=list(shown))

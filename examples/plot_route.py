@@ -13,7 +13,7 @@ from halfway.look import Looks
 from halfway.render import pictures
 
 library = halfway.open_library("builtin:merl-abc")
-images = Looks.fit(library)
+looks = Looks.fit(library)
 
 # %%
 # One picture per measured material is enough: with direct light the picture of a mix is the mix of the pictures.
@@ -21,7 +21,7 @@ images = Looks.fit(library)
 frames = []
 for name in ("paper", "anchored"):
     route = halfway.route(library, "cherry-235", "tungsten-carbide", space=name)
-    frames += [images.picture(recipe) for recipe in route.recipes(np.linspace(0, 1, 9))]
+    frames += [looks.picture(recipe) for recipe in route.recipes(np.linspace(0, 1, 9))]
 
 figure, ax = plt.subplots(figsize=(9, 2.2), layout="constrained")
 ax.imshow(pictures.sheet(frames, columns=9))

@@ -9,7 +9,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from halfway import open_library
-from halfway.render.pictures import to_srgb
+from halfway.render import pictures
 
 library = open_library("builtin:merl-abc")
 names = ("blue-fabric", "cherry-235", "gold-paint", "pearl-paint", "steel")
@@ -19,7 +19,7 @@ for ax, name in zip(axes, names, strict=True):
     values = library.brdf(name).values[..., library.grid.shape[2] // 2]
     # Rows are theta_d from below; what was not measured is NaN, and black here.
     ax.imshow(
-        to_srgb(np.sqrt(np.nan_to_num(values)).transpose(2, 1, 0)),
+        pictures.to_8_bit(np.sqrt(np.nan_to_num(values)).transpose(2, 1, 0)),
         origin="lower",
         extent=(0, 90, 0, 90),
     )

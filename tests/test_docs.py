@@ -17,6 +17,11 @@ PUBLIC = [path.stem for path in API if path.stem != "errors"]
 FENCE = re.compile(r"^```(?:pycon|\{public\} (\S+))\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 
 
+EXPLAINED = sorted(
+    path for path in (ROOT / "src" / "halfway").rglob("*.py") if " >>> " in path.read_text()
+)
+
+
 @pytest.mark.parametrize("page", API, ids=lambda path: path.stem)
 def test_examples_of_the_reference_run(page, tmp_path, monkeypatch):
     """Those of a page are one program, in an empty folder."""
@@ -28,7 +33,23 @@ def test_examples_of_the_reference_run(page, tmp_path, monkeypatch):
         first = text.count("\n", 0, block.start(2))
         lines = block[2].splitlines()
         kept[first : first + len(lines)] = lines
-    test = doctest.DocTestParser().get_doctest("\n".join(kept), {}, page.name, str(page), 0)
+    run(doctest.DocTestParser().get_doctest("\n".join(kept), {}, page.name, str(page), 0))
+
+
+@pytest.mark.parametrize("path", EXPLAINED, ids=lambda path: f"{path.parent.name}/{path.stem}")
+def test_examples_of_the_docstrings_run(path, tmp_path, monkeypatch):
+    """Each by itself, in an empty folder, with the names of its module."""
+    monkeypatch.chdir(tmp_path)
+    module = import_module(".".join(path.relative_to(ROOT / "src").with_suffix("").parts))
+    shown = [test for test in doctest.DocTestFinder().find(module) if test.examples]
+    assert shown
+    for test in shown:
+        assert not any("SKIP" in example.source for example in test.examples), test.name
+        run(test)
+
+
+def run(test: doctest.DocTest) -> None:
+    """Run examples that stand in one text; a failure says where."""
     runner = doctest.DocTestRunner(
         optionflags=doctest.ELLIPSIS | doctest.IGNORE_EXCEPTION_DETAIL, verbose=False
     )

@@ -1,4 +1,4 @@
-"""The paper's Figures 2 and 3, as matplotlib figures."""
+"""The paper's Figures 2 and 3, and spaces compared, as matplotlib figures."""
 
 from collections.abc import Callable, Mapping, Sequence
 from functools import wraps

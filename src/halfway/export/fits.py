@@ -14,11 +14,11 @@ from .gltf import to_glb, to_gltf
 from .materialx import to_materialx
 
 MODEL_OF = {".mtlx": "openpbr", ".gltf": "gltf", ".glb": "gltf", ".json": "openpbr"}
-"""The model that a file is made of where nobody says."""
+"""By the suffix of a file, the model that is fitted for it unless another is named."""
 
 
 def model_of(path: str | Path) -> str:
-    """The model to fit for a file where nobody says which.
+    """The name of the model that is fitted for a file unless another is named, by its suffix.
 
     Raises
     ------

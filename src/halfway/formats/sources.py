@@ -27,7 +27,7 @@ UNREADABLE = (
     zlib.error,
     lzma.LZMAError,
 )
-"""What `zipfile` raises of a file that is no zip, or a damaged one."""
+"""The exceptions of a file that cannot be read, or of a zip that is damaged or none."""
 
 
 class Source(ABC):

@@ -39,7 +39,7 @@ class ChangedLibraryWarning(UserWarning):
 
 
 def split_library(words: Sequence[str]) -> tuple[str, list[str]]:
-    """The library that the first word names, or the default; and the other words."""
+    """The library that the first of some words names, or the default one; and the other words."""
     first, *rest = words or [""]
     return (first, rest) if is_library(first) else (DEFAULT_LIBRARY, list(words))
 

@@ -43,8 +43,12 @@ class BasisPictures:
 
     Examples
     --------
-    >>> basis = BasisPictures(Renderer("teapot"), library.table)                    # doctest: +SKIP
-    >>> frames = [basis.picture(r) for r in route.recipes(ts)]     # doctest: +SKIP
+    >>> import halfway
+    >>> from halfway.render import BasisPictures, Renderer
+    >>> library = halfway.open_library("builtin:merl-abc")
+    >>> route = halfway.route(library, "teflon", "chrome", space="linear", pace="uniform")
+    >>> basis = BasisPictures(Renderer("sphere", size=(64, 64), spp=16), library.brdf)
+    >>> frames = [basis.picture(recipe) for recipe in route.recipes([0, 0.5, 1])]
     """
 
     def __init__(

@@ -73,9 +73,11 @@ class Renderer:
 
     Examples
     --------
-    >>> from halfway.models import builtin                                  # doctest: +SKIP
-    >>> renderer = Renderer("teapot", size=(256, 256), spp=16)              # doctest: +SKIP
-    >>> pictures.write("gold.png", renderer.picture(table))                 # doctest: +SKIP
+    >>> import halfway
+    >>> from halfway.render import Renderer, pictures
+    >>> gold = halfway.open_library("builtin:merl-abc").brdf("gold-paint")
+    >>> renderer = Renderer("sphere", size=(64, 64), spp=16)
+    >>> pictures.write("gold.png", renderer.picture(gold))
     """
 
     def __init__(

@@ -88,10 +88,10 @@ def register(device: Device = "auto") -> None:
 
     Examples
     --------
-    >>> import halfway.render                                                       # doctest: +SKIP
-    >>> halfway.render.register()                                                   # doctest: +SKIP
-    >>> import mitsuba as mi                                                        # doctest: +SKIP
-    >>> mi.load_dict({"type": "halfway_table", "filename": "gold-paint.binary"})    # doctest: +SKIP
+    >>> import halfway.render
+    >>> halfway.render.register()
+    >>> import mitsuba as mi
+    >>> bsdf = mi.load_dict({"type": "halfway_table", "recipe": "gold-paint=0.7, teflon=0.3"})
     """
     mi = load_mitsuba(device)
     require_tables(mi.variant())

@@ -72,7 +72,7 @@ def app_of(
     hosts: Iterable[str] = LOOPBACK,
     warm: bool = False,
 ) -> FastAPI:
-    """The application of an explorer that is there already."""
+    """The application that answers for a library by its `Explorer`; `create_app` makes both."""
     if warm:
         Thread(target=explorer.warm, daemon=True).start()
     app = FastAPI(

@@ -50,7 +50,7 @@ SUFFIXES = {"merl": ".binary", "bsdf": ".bsdf"}
 
 
 class Explorer:
-    """Answers for one library."""
+    """What the page asks of a library: its spaces, routes, tables and pictures, without HTTP."""
 
     def __init__(self, library: Library, *, work: Work = HERE) -> None:
         self.library = library

@@ -87,7 +87,7 @@ def route(
     >>> import halfway
     >>> route = halfway.route("builtin:merl-abc", "teflon", "chrome", space="linear", pace="uniform")
     >>> route.recipe(0.5)
-    Recipe('builtin:merl-abc', {'teflon': 0.5, 'chrome': 0.5})
+    Recipe('builtin:merl-abc', {'chrome': 0.5, 'teflon': 0.5})
 
     Raises
     ------
