@@ -251,7 +251,7 @@ def _jumps(bench: Bench, route: Route) -> list[float]:
     ]
 
 
-def _jump(steps: Float[np.ndarray, " n_steps"]) -> float:
+def _jump(steps: Float[np.ndarray | np.floating, "..."]) -> float:
     mean = float(steps.mean())
     return float(steps.max()) / mean if mean else np.nan
 

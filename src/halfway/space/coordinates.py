@@ -141,6 +141,6 @@ class Coordinates:
         others, own = (np.concatenate(each, axis=-1) for each in zip(*parts, strict=True))
         return LeftOut(others * scale, own * scale)
 
-    def _scale(self, parts: Sequence[Points]) -> Float64[np.ndarray, " d"]:
+    def _scale(self, parts: Sequence[np.ndarray]) -> Float64[np.ndarray, " d"]:
         scales = [group.scale_of(part) for group, part in zip(self.groups, parts, strict=True)]
         return np.concatenate(scales)
