@@ -49,9 +49,8 @@ def address():
     options = {
         # A killed worker takes seconds to come back: two deaths prove what four do.
         "distributed.scheduler.allowed-failures": 1,
-        # A worker that does not reach the scheduler in time stays away for good.
-        "distributed.comm.timeouts.connect": f"{PATIENCE:g} s",
-        "distributed.comm.timeouts.tcp": f"{PATIENCE:g} s",
+        # One that is not back in time is given up.
+        "distributed.deploy.lost-worker-timeout": f"{PATIENCE:g} s",
     }
     with (
         dask.config.set(options),

@@ -10,6 +10,7 @@ import sys
 from functools import partial
 from pathlib import Path
 
+import nbformat
 import pytest
 import typer
 
@@ -127,6 +128,17 @@ def test_commands_run(page, monkeypatch, capsys):
 )
 def test_python_blocks_run(page):
     """Those of a page are one program."""
+    run(blocks(page), page.name)
+
+
+def test_the_example_notebook_runs_and_carries_no_outputs():
+    notebook = nbformat.read(ROOT / "examples" / "explore.ipynb", as_version=4)
+    code = [cell for cell in notebook.cells if cell.cell_type == "code"]
+    assert all(not cell.outputs and cell.execution_count is None for cell in code)
+    run([cell.source for cell in code], "explore.ipynb")
+
+
+def run(blocks, name):
     names: dict[str, object] = {"__name__": "__main__"}
-    for block in blocks(page):
-        exec(compile(block, page.name, "exec"), names)
+    for block in blocks:
+        exec(compile(block, name, "exec"), names)

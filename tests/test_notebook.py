@@ -6,10 +6,8 @@ import subprocess
 import sys
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
-from pathlib import Path
 from typing import Any
 
-import nbformat
 import pytest
 from fastapi.testclient import TestClient
 from patience import PATIENCE
@@ -23,7 +21,6 @@ from halfway.server.explorer import Explorer as Answers
 from halfway.server.schema import Point
 from halfway.tasks import Work
 
-EXAMPLE = Path(__file__).parents[1] / "examples" / "explore.ipynb"
 ENDS = ["material-0", "material-4"]
 
 
@@ -140,14 +137,3 @@ def test_without_the_extra_one_line_says_how_to_get_it() -> None:
         "halfway.notebook needs the package anywidget, which is not installed: expected the extra 'notebook'. "
         'Install it with `pip install "halfway[notebook]"`.'
     )
-
-
-def test_the_example_runs_and_carries_no_outputs() -> None:
-    notebook = nbformat.read(EXAMPLE, as_version=4)
-    code = [cell for cell in notebook.cells if cell.cell_type == "code"]
-    assert all(not cell.outputs and cell.execution_count is None for cell in code)
-    script = "\n".join(cell.source for cell in code)
-    done = subprocess.run(
-        [sys.executable, "-c", script], capture_output=True, text=True, check=False
-    )
-    assert done.returncode == 0, done.stderr
