@@ -17,9 +17,9 @@ than 80 degrees from the normal, where measurements are poor and 1/cos is large,
 [1] A. Ngan, F. Durand, W. Matusik, "Experimental Analysis of BRDF Models", EGSR 2005, section 3.1.
 [2] A. Fores, J. Ferwerda, J. Gu, "Toward a Perceptually Based Metric for BRDF Modeling", Color and Imaging Conference 2012.
 [3] J. Löw, J. Kronander, A. Ynnerman, J. Unger, "BRDF Models for Accurate and Efficient Rendering of Glossy Surfaces",
-    ACM TOG 31(1), 2012, the metric E2.
+ACM TOG 31(1), 2012, the metric E2.
 [4] J. B. Nielsen, H. W. Jensen, R. Ramamoorthi, "On Optimal, Minimal BRDF Sampling for Reflectance Acquisition", ACM TOG
-    34(6), 2015, equation 6: ln((f w + e) / (f_ref w + e)); the reference cancels in a difference.
+34(6), 2015, equation 6: ln((f w + e) / (f_ref w + e)); the reference cancels in a difference.
 """
 
 from collections.abc import Callable
@@ -88,7 +88,6 @@ MAPPINGS: dict[Metric, Mapping] = {
     ),
 }
 METRICS: tuple[str, ...] = get_args(Metric)
-"""The names of the ways to say how different two tables are."""
 
 
 def _root_mean_square(cells: Cells, mapping: Mapping, f: Table, g: Table, counts: Mask) -> float:
