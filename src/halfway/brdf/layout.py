@@ -87,9 +87,9 @@ def horizon(grid: Grid) -> Horizon:
 
 
 def layout_of(values: Table, grid: Grid) -> Layout:
-    """How an array lies that is said to be on ``grid``: so, unless its unmeasured cells draw another horizon, and this alone.
+    """The order of the axes of an array, and their sizes: those of ``grid``, unless its unmeasured cells fit one other alone.
 
-    On a grid of another kind than a MERL file's, so in any case.
+    On a grid of another kind than a MERL file's, those of ``grid`` in any case.
     """
     if len(grid.axes) != 3 or grid != Grid.merl(*grid.shape):
         return Layout(grid.shape, grid.shape, tuple(range(len(grid.axes))), grid)

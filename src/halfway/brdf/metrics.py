@@ -88,7 +88,6 @@ MAPPINGS: dict[Metric, Mapping] = {
     ),
 }
 METRICS: tuple[str, ...] = get_args(Metric)
-"""The names of the ways to say how different two tables are."""
 
 
 def _root_mean_square(cells: Cells, mapping: Mapping, f: Table, g: Table, counts: Mask) -> float:
