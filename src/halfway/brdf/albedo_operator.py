@@ -49,7 +49,7 @@ class AlbedoOperator:
         """Albedos of tables, shape (c, n_cells)."""
         flat = samples.reshape(len(samples), -1)
         rows = [
-            flat[:, cells].astype(np.float64) @ weights
+            np.take(flat, cells, axis=1).astype(np.float64) @ weights
             for cells, weights in zip(self.cells, self.weights, strict=True)
         ]
         return np.stack(rows, axis=1)

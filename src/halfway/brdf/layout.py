@@ -156,7 +156,7 @@ def _error(layout: Layout, unmeasured: Mask) -> float:
 def _period(cells: np.ndarray, axis: int) -> int:
     """The cells along an axis after which all come again; its size where they do not, or where all are the same."""
     n = cells.shape[axis]
-    cells = np.moveaxis(cells, axis, 0)
+    cells = np.moveaxis(cells, axis, 0).view(np.uint32)  # by their bits, NaN as well
     periods = (period for period in range(1, n // 2 + 1) if n % period == 0)
     found = next((period for period in periods if _repeats(cells, period)), n)
     few = found < n and len(np.unique(cells[:found])) < _LEAST_VALUES
@@ -165,9 +165,7 @@ def _period(cells: np.ndarray, axis: int) -> int:
 
 def _repeats(cells: np.ndarray, period: int) -> bool:
     first, second = cells[:1], cells[period : period + 1]  # most often they differ already
-    return np.array_equal(first, second, equal_nan=True) and np.array_equal(
-        cells[:-period], cells[period:], equal_nan=True
-    )
+    return np.array_equal(first, second) and np.array_equal(cells[:-period], cells[period:])
 
 
 def _lower_cosine(grid: Grid, end: int) -> np.ndarray:
