@@ -30,7 +30,15 @@ from typing import Any
 import h5py
 import numpy as np
 
-CHANGED: dict[str, str] = {}
+LEGS = "at perceptual pace a route is as long as its legs, each measured by itself: more than two stops share t by a little else"
+DATA = "the page solves nothing: a leg says how long it is at each pace, and a space's simplices are in charts/"
+CHANGED: dict[str, str] = {
+    "three-stops/*": LEGS,
+    "scenes/route/*": LEGS,
+    "site*/data/legs/*": DATA,
+    "site*/data/spaces/*": DATA,
+    "site*/data/charts/*": DATA,
+}
 """Why the sums of the files that a pattern stands for are others than before."""
 
 COMMANDS = """
