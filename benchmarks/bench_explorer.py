@@ -36,7 +36,7 @@ TIMES = """() => {
     .filter(({ name }) => name.includes(part)).map(({ responseEnd }) => responseEnd).sort((a, b) => a - b);
   return {
     tables: ends("/api/tables/"),
-    route: ends("/api/route")[0],
+    route: ends("/api/legs/")[0],
     picture: performance.getEntriesByName("picture")[0].startTime,
   };
 }"""

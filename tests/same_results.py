@@ -31,11 +31,18 @@ import h5py
 import numpy as np
 
 _KEPT = "a library of neural fits says that they are stand-ins"
+LEGS = "at perceptual pace a route is as long as its legs, each measured by itself: more than two stops share t by a little else"
+DATA = "the page solves nothing: a leg says how long it is at each pace, and a space's simplices are in charts/"
 CHANGED: dict[str, str] = {
     "given.brdflib/library.json": _KEPT,
     "both.brdflib/library.json": _KEPT,
     "said/library-info-given.brdflib.txt": _KEPT,
     "*.recipe.json": "a mix written as a MERL file has its recipe beside it",
+    "three-stops/*": LEGS,
+    "scenes/route/*": LEGS,
+    "site*/data/legs/*": DATA,
+    "site*/data/spaces/*": DATA,
+    "site*/data/charts/*": DATA,
 }
 """Why the sums of the files that a pattern stands for are others than before."""
 

@@ -85,7 +85,7 @@ def test_a_place_that_is_none_is_refused(
         ("GET", "api/library", None),
         ("GET", "api/tables/material-3", None),
         ("GET", "api/tables/unobtainium", None),
-        ("GET", "api/route?space=linear&pace=uniform&stop=material-0&stop=material-1", None),
+        ("GET", "api/legs/linear/material-0/material-1", None),
         ("POST", "api/export/merl", {"library": "small", "weights": {"material-1": 1.0}}),
         ("POST", "api/position", {"space": "linear", "point": [0.0]}),
         ("GET", "../../etc/passwd", None),

@@ -21,7 +21,7 @@ from halfway.server import Page, create_app
 from halfway.server.blocks import Block
 from halfway.server.guard import MAX_BODY
 from halfway.server.page import Asset
-from halfway.space import SPACES, Route, make_space
+from halfway.space import PACES, SPACES, Route, make_space
 
 ROOT = Path(__file__).parents[1]
 HOST = "http://127.0.0.1:8765"
@@ -97,19 +97,18 @@ def test_thumbnails_are_the_basis_images(client: TestClient) -> None:
     assert (block[block[..., 3] == 1][:, :3] > 0).any()
 
 
-def test_a_route_is_that_of_the_package(
-    client: TestClient, small_library: ProceduralLibrary
-) -> None:
-    stops = ["material-0", "material-4", "material-2"]
-    view = client.get(
-        "/api/route", params={"space": "paper", "pace": "uniform", "stop": stops}
-    ).json()
-    route = Route.through(make_space("paper", small_library), stops)
-    used = [small_library.names.index(name) for name in view["names"]]
-    assert_allclose(view["knots"], route.way.knots, rtol=0, atol=0)
+def test_a_leg_is_that_of_the_package(client: TestClient, small_library: ProceduralLibrary) -> None:
+    leg = client.get("/api/legs/paper/material-0/material-4").json()
+    route = Route.through(make_space("paper", small_library), ["material-0", "material-4"])
+    used = [small_library.names.index(name) for name in leg["names"]]
+    assert_allclose(leg["knots"], route.way.knots, rtol=0, atol=0)
     for c, channel in enumerate("rgb"):
-        assert_array_equal(view["weights"][channel], route.way.weights[c][:, used])
-    assert view["stop_t"] == [0, 0.5, 1]
+        assert_array_equal(leg["weights"][channel], route.way.weights[c][:, used])
+    assert set(leg["paces"]) == set(PACES)
+    for pace in leg["paces"].values():
+        assert (pace["t"][0], pace["t"][-1], pace["length"][0]) == (0, 1, 0)
+        assert (np.diff(pace["t"]) > 0).all()
+        assert (np.diff(pace["length"]) > 0).all()
 
 
 @pytest.mark.parametrize("space", SPACES)
@@ -132,7 +131,7 @@ def test_what_is_furthest_in_any_direction_is_a_corner_of_the_hull(client: TestC
             assert set((points @ directions).argmax(axis=0)) <= corners
 
 
-def test_the_place_of_a_material_is_that_material(client: TestClient) -> None:
+def test_the_point_of_a_material_is_that_material(client: TestClient) -> None:
     for space in ("anchored", "paper"):
         embeddings = client.get(f"/api/spaces/{space}").json()["embeddings"]
         point = [x for embedding in embeddings for x in embedding["points"][4]]
@@ -142,7 +141,7 @@ def test_the_place_of_a_material_is_that_material(client: TestClient) -> None:
         assert_allclose(view["point"], point)
 
 
-def test_a_place_outside_is_answered_by_the_nearest_mix(client: TestClient) -> None:
+def test_a_point_outside_is_answered_by_the_nearest_mix(client: TestClient) -> None:
     embeddings = client.get("/api/spaces/anchored").json()["embeddings"]
     point = [100 * x + 1 for embedding in embeddings for x in embedding["points"][0]]
     view = client.post("/api/position", json={"space": "anchored", "point": point}).json()
@@ -169,7 +168,7 @@ def test_outside_the_paper_s_hulls_each_channel_takes_its_nearest_mix(
     assert_allclose(found["point"][6:], mixed, rtol=1e-9)
 
 
-def test_the_linear_space_has_no_places(client: TestClient) -> None:
+def test_the_linear_space_has_no_points_to_go_to(client: TestClient) -> None:
     answer = client.post("/api/position", json={"space": "linear", "point": [0, 0, 0]})
     assert answer.status_code == 400
 
@@ -223,9 +222,8 @@ def test_a_recipe_of_another_library_is_refused(client: TestClient) -> None:
         ("/api/tables/..%2F..%2Fetc%2Fpasswd", 404, "nothing this server answers"),
         ("/../../pyproject.toml", 404, "nothing this server answers"),
         ("/api/spaces/cubic", 400, "there is no space 'cubic'"),
-        ("/api/route?space=paper", 400, "query.stop"),
-        ("/api/route?space=paper&stop=material-1", 400, "goes nowhere"),
-        ("/api/route?space=paper&pace=brisk&stop=material-1&stop=material-2", 400, "'brisk'"),
+        ("/api/legs/paper/material-1/material-77", 400, "'material-77' is not a material"),
+        ("/api/legs/paper/material-1/material-1", 400, "follows itself"),
         ("/api/nothing", 404, "nothing this server answers"),
     ],
 )

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from numpy.testing import assert_array_equal
+from numpy.testing import assert_allclose, assert_array_equal
 from strategies import random_tables
 from typer.testing import CliRunner
 
@@ -18,6 +18,7 @@ from halfway.look import Looks, most_different
 from halfway.server.blocks import Block
 from halfway.server.page import Asset, Page
 from halfway.server.static import N_LARGEST, export
+from halfway.space import make_space
 
 HTML = Asset(b"<!doctype html><html><head><title>halfway</title></head></html>", "text/html", "")
 PAGE = Page({"index.html": HTML, "assets/page.js": Asset(b"mount()", "text/javascript", "")})
@@ -77,6 +78,29 @@ def test_every_pair_has_its_way_in_every_space(few: Library, exported: Path) -> 
     for space in ("anchored", "paper", "linear"):
         legs = {path.name for path in (exported / "data" / "legs" / space).iterdir()}
         assert legs == {f"{i}-{j}.json" for i in range(n) for j in range(i + 1, n)}
+
+
+@pytest.mark.parametrize("name", ["anchored", "paper"])
+def test_at_any_point_a_simplex_has_the_weights(few: Library, exported: Path, name: str) -> None:
+    """The law of the charts that the page multiplies with: they give what the space gives."""
+    space = make_space(name, few)
+    charts = json.loads((exported / "data" / "charts" / f"{name}.json").read_text())["charts"]
+    rng = np.random.default_rng(1)
+    for weights in rng.dirichlet(np.ones(len(few)), size=20):
+        point = weights @ space.points
+        recipe = space.at(point, clamp=True).recipe
+        parts = np.split(point, len(charts))
+        for c, (chart, part) in enumerate(zip(charts, parts, strict=True)):
+            barycentric = np.array(chart["barycentric"]) @ np.append(part, 1.0)
+            simplex = int(barycentric.min(axis=1).argmax())
+            dense = np.zeros(len(few))
+            dense[chart["simplices"][simplex]] = barycentric[simplex]
+            own = dict(zip(recipe.names, recipe.weights[c], strict=True))
+            assert_allclose(dense, [own.get(material, 0.0) for material in few.names], atol=1e-9)
+
+
+def test_a_space_without_points_has_no_charts(exported: Path) -> None:
+    assert {path.stem for path in (exported / "data" / "charts").iterdir()} == {"anchored", "paper"}
 
 
 def test_a_folder_of_other_files_is_refused_and_left_alone(

@@ -259,7 +259,7 @@ def test_a_server_that_went_away_is_said(explorer: Explorer) -> None:
     explorer.open(PAIR)
     explorer.page.wait_for_selector(".recipe .name")
     explorer.expected = "Failed to load resource"  # the browser's own words
-    explorer.page.route("**/api/route*", lambda route: route.abort())
+    explorer.page.route("**/api/legs/**", lambda route: route.abort())
     explorer.page.locator("[name=space]").select_option("paper")
     explorer.page.wait_for_selector(".problem:not([hidden])")
     assert "halfway view" in explorer.page.locator(".problem").inner_text()

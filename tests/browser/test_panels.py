@@ -123,15 +123,15 @@ def test_a_stop_is_compared_with(explorer: Explorer) -> None:
     assert (teflon != chrome).any(axis=-1).mean() > 0.2
 
 
-def test_a_place_outside_the_hull_is_marked_beside_the_nearest(explorer: Explorer) -> None:
+def test_a_point_outside_the_hull_is_marked_beside_a_mix_nearby(explorer: Explorer) -> None:
     far = [1e6, 0.0, 0.0] * 3
     point = ",".join(map(str, far))
     explorer.open(f"#space=paper&stops=cherry-235,teflon&t=0.5&light=points&point={point}")
     explorer.page.get_by_role("button", name="Back to route").wait_for()
-    assert "this is the nearest" in explorer.page.locator(".adjustment").inner_text()
+    assert "this is one nearby" in explorer.page.locator(".adjustment").inner_text()
     explorer.page.locator(".maps [data-value=R]").click()
     explorer.page.wait_for_selector(".asked")
-    assert "nearest" in explorer.page.locator(".space .note").inner_text()
+    assert "nearby" in explorer.page.locator(".space .note").inner_text()
 
 
 def test_a_free_place_is_undone_and_redone(explorer: Explorer) -> None:
@@ -198,7 +198,7 @@ def test_until_the_route_has_come_the_picture_is_empty(explorer: Explorer) -> No
     explorer.page.on(
         "requestfinished", lambda r: tables.append(r) if "/api/tables/" in r.url else None
     )
-    explorer.page.route("**/api/route*", lambda route: held.append(route))
+    explorer.page.route("**/api/legs/**", lambda route: held.append(route))
     explorer.open("#space=linear&stops=cherry-235,gold-paint&t=0.5&light=points")
     # The tables of the stops beside t are here, and no one knows yet how they are mixed.
     explorer.page.wait_for_function(
@@ -231,16 +231,23 @@ def test_few_tables_are_asked_for_at_a_time(explorer: Explorer) -> None:
 
 def test_the_space_shows_where_the_route_crosses_into_another_simplex(explorer: Explorer) -> None:
     explorer.page.set_viewport_size(SMALL)
-    crossings: list[float] = []
+    # So little of a third material that the line stays where it is.
+    rows = [[1 - t, 0.0, t] for t in (0.0, 0.3, 0.6, 1.0)]
+    leg = {"names": ["cherry-235", "gold-paint", "teflon"], "knots": [0.0, 0.3, 0.6, 1.0]}
     explorer.page.route(
-        "**/api/route*",
-        lambda route: route.fulfill(json={**route.fetch().json(), "crossings": crossings}),
+        "**/api/legs/**",
+        lambda route: route.fulfill(
+            json={**route.fetch().json(), **leg, "weights": dict.fromkeys("rgb", rows)}
+        ),
     )
     open_the_space(explorer)
     without = still_cloud(explorer)
     crossings += [0.3, 0.6]
     open_the_space(explorer)
     wait_until(lambda: cloud(explorer) != without, explorer.pause)
+    without = picture_of_the_space(explorer)
+    rows[1][1] = 1e-9
+    assert picture_of_the_space(explorer) != without
 
 
 def test_pictures_come_again_when_the_card_was_lost(explorer: Explorer) -> None:

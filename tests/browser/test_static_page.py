@@ -11,12 +11,12 @@ import pytest
 from conftest import Explorer  # pyright: ignore[reportMissingImports]
 from patience import PATIENCE
 
+from halfway import route
 from halfway.library import ProceduralLibrary, Subset
 from halfway.recipes import Recipe
 from halfway.server import Page
-from halfway.server.explorer import Explorer as Answers
-from halfway.server.schema import Point
 from halfway.server.static import export
+from halfway.space import make_space
 
 MATERIALS = (
     "blue-fabric", "cherry-235", "chrome", "gold-paint", "green-plastic", "pink-felt", "red-metallic-paint", "teflon",
@@ -64,42 +64,38 @@ def test_the_page_opens_and_asks_for_nothing_outside_its_folder(explorer: Explor
     assert any("city" in url for url in asked)
 
 
-def test_the_slider_goes_along_the_servers_route(explorer: Explorer, subset: Subset) -> None:
-    explorer.open(PAIR + "&t=0")
+def test_the_slider_goes_along_pythons_route(explorer: Explorer, subset: Subset) -> None:
+    stops = ["teflon", "cherry-235", "chrome"]
+    explorer.open("#space=anchored&pace=perceptual&stops=teflon,cherry-235,chrome&t=0")
     explorer.page.wait_for_selector(".recipe .name")
     assert explorer.recipe == ["teflon"]
     explorer.set_t(0.25)
-    answers = Answers(subset)
-    route = answers.route("anchored", ["teflon", "cherry-235"], "perceptual")
+    recipe = route(subset, *stops).recipe(0.25)
     with explorer.page.expect_download() as file:
         explorer.page.get_by_role("button", name="Recipe", exact=True).click()
-    found = Recipe.from_json(json.loads(file.value.path().read_text()))
-    k = max(i for i, knot in enumerate(route.knots) if knot <= 0.25)
-    share = (0.25 - route.knots[k]) / (route.knots[k + 1] - route.knots[k])
-    expected = {
-        name: (1 - share) * a + share * b
-        for name, a, b in zip(route.names, route.weights.r[k], route.weights.r[k + 1], strict=True)
-    }
-    assert found.library.name == "browser"
-    assert dict(zip(found.names, found.weights[0], strict=True)) == pytest.approx(
-        {name: weight for name, weight in expected.items() if weight}, abs=1e-9
+    shown = Recipe.from_json(json.loads(file.value.path().read_text()))
+    assert shown.library.name == "browser"
+    assert dict(zip(shown.names, shown.weights[0], strict=True)) == pytest.approx(
+        dict(zip(recipe.names, recipe.weights[0], strict=True)), abs=1e-9
     )
 
 
-def test_a_free_place_is_found_without_a_server(explorer: Explorer, subset: Subset) -> None:
+def test_a_free_point_needs_no_server(explorer: Explorer, subset: Subset) -> None:
+    space = make_space("anchored", subset)
     # The middle of all materials, in the coordinates of the space.
-    view = Answers(subset).space_view("anchored")
-    point = [
-        sum(row[k] for row in embedding.points) / len(MATERIALS)
-        for embedding in view.embeddings
-        for k in range(len(embedding.axes))
-    ]
-    recipe = Answers(subset).position(Point(space="anchored", point=point)).recipe.weights
-    explorer.open(f"{PAIR}&point={','.join(map(str, point))}")
+    point = space.points.mean(axis=0)
+    explorer.open(f"{PAIR}&point={','.join(map(str, point.tolist()))}")
+    names = space.at(point).recipe.names
     explorer.page.wait_for_function(
-        "n => document.querySelectorAll('.recipe .name').length === n", arg=len(recipe)
+        "n => document.querySelectorAll('.recipe .name').length === n", arg=len(names)
     )
-    assert set(explorer.recipe) == set(recipe)
+    assert set(explorer.recipe) == set(names)
+
+
+def test_beyond_all_materials_there_is_a_mix_nearby(explorer: Explorer) -> None:
+    explorer.open(f"{PAIR}&point={','.join(9 * ['1e6'])}")
+    explorer.page.get_by_text("no mix is just there").wait_for()
+    assert explorer.recipe
 
 
 def test_tables_are_not_offered(explorer: Explorer) -> None:

@@ -12,13 +12,10 @@ from typing import Any
 import numpy as np
 
 from halfway.brdf import TabularBrdf, directional_albedo
-from halfway.components import Pca
 from halfway.halfdiff import MERL, Grid, HalfDiff, from_half_diff, to_half_diff
 from halfway.library import ProceduralLibrary
-from halfway.recipes import Recipe
 from halfway.render.pictures import to_8_bit
 from halfway.server.blocks import Block
-from halfway.space import PaperSpace, Route
 
 HERE = Path(__file__).parent
 GRID = Grid.merl(4, 3, 6)
@@ -31,9 +28,9 @@ def golden() -> dict[str, Any]:
         "grid": _grid(),
         "lookup": _lookup(),
         "albedo": _albedo(),
-        "recipe": _recipe(),
+        "route": _route(),
+        "points": _points(),
         "colour": _colour(),
-        "static": _static(),
     }
 
 
@@ -122,90 +119,68 @@ def _albedo() -> dict[str, Any]:
     return {**nodes, "theta_i": theta_i.tolist(), "values": values.tolist()}
 
 
-def _recipe() -> dict[str, Any]:
-    from halfway.server.explorer import to_view
-
-    rng = np.random.default_rng(4)
+def _library(n: int, seed: int) -> ProceduralLibrary:
+    rng = np.random.default_rng(seed)
     tables = {
         f"material-{i}": TabularBrdf(rng.gamma(0.5, size=(3, *GRID.shape)).astype(np.float32), GRID)
-        for i in range(20)
+        for i in range(n)
     }
-    library = ProceduralLibrary("golden", tables, grid=GRID)
-    route = Route.through(
-        PaperSpace.fit(library, Pca.fit(library)), ["material-0", "material-3", "material-5"]
-    )
-    ts = [0.0, 0.1, 0.25, float(route.way.knots[1]), 0.5, 0.7, 0.999, 1.0]
-    recipes: list[Recipe] = route.recipes(ts)
-    return {
-        "route": to_view(route).model_dump(mode="json"),
-        "recipes": [{"t": t, **recipe.to_json()} for t, recipe in zip(ts, recipes, strict=True)],
-    }
+    return ProceduralLibrary("golden", tables, grid=GRID)
 
 
-def _static() -> dict[str, Any]:
-    """What the page works out of files, and the server by itself: routes of legs, and places."""
+def _route() -> dict[str, Any]:
+    """Legs as they are sent, one of them against the library's order, and the routes and recipes of the whole."""
+    from halfway.server.explorer import Explorer
+    from halfway.space import PACES
+
+    explorer = Explorer(_library(20, seed=4))
+    stops = ["material-0", "material-7", "material-2", "material-9"]
+    legs = {
+        f"{a} {b}": explorer.leg("paper", a, b).model_dump(mode="json")
+        for a, b in (sorted(pair) for pair in pairwise(stops))
+    }
+    routes: list[dict[str, Any]] = []
+    for pace in PACES:
+        route = explorer.way("paper", stops, pace)
+        ts = [0.0, 0.1, 0.25, float(route.stop_ts[1]), float(route.way.knots[9]), 0.7, 0.999, 1.0]
+        recipes = zip(ts, route.recipes(ts), strict=True)
+        routes.append(
+            {
+                "pace": pace,
+                "stop_t": route.stop_ts.tolist(),
+                "recipes": [{"t": t, **recipe.to_json()} for t, recipe in recipes],
+            }
+        )
+    names = list(explorer.library.names)
+    return {"names": names, "stops": stops, "legs": legs, "routes": routes}
+
+
+def _points() -> dict[str, Any]:
+    """Charts as they are written, and what the server says of points inside and outside."""
     from halfway.server.explorer import Explorer
     from halfway.server.schema import Point
-    from halfway.server.static import triangulations
+    from halfway.server.static import charts_file
 
+    explorer = Explorer(_library(10, seed=5))
     rng = np.random.default_rng(5)
-    tables = {
-        f"material-{i}": TabularBrdf(rng.gamma(0.5, size=(3, *GRID.shape)).astype(np.float32), GRID)
-        for i in range(10)
-    }
-    explorer = Explorer(ProceduralLibrary("golden", tables, grid=GRID))
-    spaces, places = {}, []
+    spaces, points = {}, []
     for name in ("anchored", "paper"):
-        view, found = explorer.space_view(name), triangulations(explorer.space(name))
+        space = explorer.space(name)
         spaces[name] = {
-            "view": view.model_dump(mode="json"),
-            "triangulations": [triangulation.model_dump(mode="json") for triangulation in found],
+            "view": explorer.space_view(name).model_dump(mode="json"),
+            "charts": charts_file(space).model_dump(mode="json")["charts"],
         }
-        points = np.concatenate([embedding.points for embedding in view.embeddings], axis=1)
+        middle = space.points.mean(axis=0)
         for weights in rng.dirichlet(np.full(10, 0.5), size=8):
             # From the middle outwards: the first few are inside.
             for reach in (1.0, 3.0):
-                point = points.mean(axis=0) + reach * (weights @ points - points.mean(axis=0))
-                place = Point(space=name, point=point.tolist())
-                answer = explorer.position(place).model_dump(mode="json")
-                places.append({**place.model_dump(mode="json"), "answer": answer})
-    return {
-        "names": list(tables),
-        "spaces": spaces,
-        "places": places,
-        "routes": [_joined(explorer, pace) for pace in ("uniform", "perceptual")],
-    }
-
-
-def _joined(explorer: Any, pace: str) -> dict[str, Any]:
-    """A route of three legs, one of them against the order of the library; lengths are made up."""
-    from halfway.server.explorer import to_view
-    from halfway.server.schema import LegFile
-    from halfway.space import paced
-
-    space, stops = explorer.space("paper"), ["material-0", "material-7", "material-2", "material-9"]
-    route = Route.through(space, stops)
-    legs, ts, lengths, covered = [], [], [], 0.0
-    for i, (a, b) in enumerate(pairwise(stops)):
-        leg = to_view(Route.through(space, [a, b]))
-        t = np.union1d(leg.knots, np.linspace(0, 1, 5))
-        length = np.append(0.0, np.cumsum((i + 1) * np.diff(t) * (1.5 + np.sin(9 * t[1:]))))
-        legs.append(
-            LegFile(
-                names=leg.names,
-                knots=leg.knots,
-                weights=leg.weights,
-                pace_t=t.tolist(),
-                pace_length=length.tolist(),
-            ).model_dump(mode="json")
-        )
-        last = i == len(stops) - 2
-        ts.append((i + (t if last else t[:-1])) / (len(stops) - 1))
-        lengths.append(covered + (length if last else length[:-1]))
-        covered += length[-1]
-    if pace == "perceptual":
-        route = paced(route, np.concatenate(ts), np.concatenate(lengths))
-    return {"legs": legs, "route": to_view(route).model_dump(mode="json")}
+                point = Point(
+                    space=name,
+                    point=(middle + reach * (weights @ space.points - middle)).tolist(),
+                )
+                answer = explorer.position(point).model_dump(mode="json")
+                points.append({**point.model_dump(mode="json"), "answer": answer})
+    return {"names": list(explorer.library.names), "spaces": spaces, "points": points}
 
 
 def _colour() -> dict[str, list[float]]:

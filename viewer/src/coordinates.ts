@@ -50,8 +50,3 @@ function rangeOf({ embeddings }: SpaceView, name: string): [number, number] {
   }
   return [from, from];
 }
-
-/** Has the space points between its routes? */
-export function hasPoints(view: SpaceView | null): boolean {
-  return view !== null && view.name !== "linear";
-}

@@ -2,24 +2,44 @@
 
 import type { Context } from "./context";
 import { toHash } from "./permalink";
+import { join, type Route, reversed } from "./route";
 import { comparedSpace, LINKED, type State } from "./state";
 import { comingUp, shownNames } from "./wanted";
 
 /** The route through the stops. */
 export function fetchRoutes(context: Context): void {
-  const { client, actions } = context;
-  latest(context, ["space", "pace", "stops"], async ({ space, pace, stops }, running) =>
-    actions.setRoute(await client.route(space, pace, stops, running)),
-  );
+  latest(context, ["space", "pace", "stops"], async (state, running) => {
+    const route = await fetchRoute(context, state.space, state, running);
+    if (!running.aborted) context.actions.setRoute(route);
+  });
+}
+
+/** Its legs, each asked for in the library's order. */
+async function fetchRoute(
+  { client, names }: Context,
+  space: string,
+  { pace, stops }: State,
+  running: AbortSignal,
+): Promise<Route> {
+  const legs = stops.slice(1).map(async (stop, i) => {
+    const start = stops[i]!;
+    if (names.indexOf(start) < names.indexOf(stop)) return client.leg(space, start, stop, running);
+    return reversed(await client.leg(space, stop, start, running));
+  });
+  return join(await Promise.all(legs), pace, names);
 }
 
 /** The way of the compared space through the same stops. */
 export function fetchOtherRoutes(context: Context): void {
-  const { client, actions } = context;
-  latest(context, ["compare", "pace", "stops"], async ({ compare, pace, stops }, running) => {
-    const space = comparedSpace(compare);
-    if (space === null) actions.compareWith(compare);
-    else actions.setOtherRoute(await client.route(space, pace, stops, running));
+  const { actions } = context;
+  latest(context, ["compare", "pace", "stops"], async (state, running) => {
+    const space = comparedSpace(state.compare);
+    if (space === null) {
+      actions.compareWith(state.compare);
+      return;
+    }
+    const route = await fetchRoute(context, space, state, running);
+    if (!running.aborted) actions.setOtherRoute(route);
   });
 }
 

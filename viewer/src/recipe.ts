@@ -1,6 +1,6 @@
-// Recipes along a route: weights linear between knots, the same as `halfway.space.Route.at`.
+// Recipes: materials and their weights, in each channel.
 
-import type { RecipeDocument, RouteView } from "./api/schema";
+import type { RecipeDocument } from "./api/schema";
 
 export const CHANNELS = ["r", "g", "b"] as const;
 
@@ -8,27 +8,6 @@ export const CHANNELS = ["r", "g", "b"] as const;
 export interface Ingredient {
   readonly name: string;
   readonly weight: readonly [number, number, number];
-}
-
-/** The materials that carry weight at t, in the order of the route's names. */
-export function recipeAt(route: RouteView, t: number): Ingredient[] {
-  const { piece, share } = pieceAt(route.knots, t);
-  const mixed = CHANNELS.map((channel) => {
-    const from = route.weights[channel][piece]!;
-    const to = route.weights[channel][piece + 1]!;
-    return from.map((weight, i) => (1 - share) * weight + share * to[i]!);
-  });
-  return route.names
-    .map((name, i) => ({ name, weight: [mixed[0]![i]!, mixed[1]![i]!, mixed[2]![i]!] as const }))
-    .filter(({ weight }) => weight[0] > 0 || weight[1] > 0 || weight[2] > 0);
-}
-
-/** The knots around t and how far t is from the first to the second. */
-export function pieceAt(knots: readonly number[], t: number): { piece: number; share: number } {
-  let piece = 0;
-  while (piece < knots.length - 2 && t >= knots[piece + 1]!) piece++;
-  const [from, to] = [knots[piece]!, knots[piece + 1]!];
-  return { piece, share: (t - from) / (to - from) };
 }
 
 /** The JSON document, as `halfway mix` reads it; one map of weights where the channels are the same. */

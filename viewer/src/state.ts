@@ -1,8 +1,9 @@
 // What the page shows, and the acts that change it.
 
-import type { LibrarySummary, PlaceView, RouteView, SpaceView } from "./api/schema";
+import type { LibrarySummary, PositionView, SpaceView } from "./api/schema";
 import { clamp } from "./numbers";
-import { fromDocument, type Ingredient, only, recipeAt } from "./recipe";
+import { fromDocument, type Ingredient, only } from "./recipe";
+import { type Route, recipeAt } from "./route";
 import { HOME, type View } from "./scene";
 import { createStore, type Store } from "./store";
 
@@ -28,15 +29,15 @@ export interface State extends View {
   /** Materials whose names match what is searched; null when nothing is. */
   readonly matches: readonly string[] | null;
   readonly view: SpaceView | null;
-  readonly route: RouteView | null;
+  readonly route: Route | null;
   readonly recipe: readonly Ingredient[];
   /** A free point of the space, instead of one on the route; null on the route. */
   readonly point: readonly number[] | null;
   /** What the server says of it. */
-  readonly atPoint: PlaceView | null;
+  readonly atPoint: PositionView | null;
   /** What is shown beside: "" nothing, `stop:NAME` a material, else a space, whose way through the same stops it is. */
   readonly compare: string;
-  readonly otherRoute: RouteView | null;
+  readonly otherRoute: Route | null;
   readonly otherRecipe: readonly Ingredient[];
   /** Where the present material ends and the other begins, from left to right in [0, 1]. */
   readonly split: number;
@@ -130,10 +131,10 @@ export class Actions {
     });
   };
 
-  setRoute = (route: RouteView): void => {
+  setRoute = (route: Route): void => {
     const { goal, atPoint, recipe } = this.store.get();
-    // At perceptual pace the server says where the stops are.
-    const t = (goal === null ? undefined : route.stop_t[goal]) ?? this.store.get().t;
+    // Where the stops are is known with the route: at perceptual pace they are not even.
+    const t = (goal === null ? undefined : route.stops[goal]) ?? this.store.get().t;
     this.store.set({ route, t, goal: null, recipe: atPoint ? recipe : recipeAt(route, t), problem: null });
   };
 
@@ -145,7 +146,7 @@ export class Actions {
     this.store.set({ point, playing: false });
   };
 
-  setAtPoint = (atPoint: PlaceView): void => {
+  setAtPoint = (atPoint: PositionView): void => {
     if (this.store.get().point !== null)
       this.store.set({ atPoint, recipe: fromDocument(atPoint.recipe), problem: null });
   };
@@ -155,7 +156,7 @@ export class Actions {
     this.store.set({ compare, otherRoute: null, otherRecipe: stop === null ? [] : only(stop) });
   };
 
-  setOtherRoute = (otherRoute: RouteView): void => {
+  setOtherRoute = (otherRoute: Route): void => {
     this.store.set({ otherRoute, otherRecipe: recipeAt(otherRoute, this.store.get().t) });
   };
 
@@ -170,7 +171,7 @@ export class Actions {
   selectSlot = (slot: number): void => {
     const { stops, route } = this.store.get();
     this.store.set({ slot });
-    if (slot < stops.length) this.setT(route?.stop_t[slot] ?? slot / (stops.length - 1));
+    if (slot < stops.length) this.setT(route?.stops[slot] ?? slot / (stops.length - 1));
   };
 
   removeStop = (i: number): void => {

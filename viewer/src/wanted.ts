@@ -1,7 +1,7 @@
 // Which materials' tables are needed, and which come next, those nearest to t first.
 
-import type { RouteView } from "./api/schema";
 import { CHANNELS, namesIn } from "./recipe";
+import type { Route } from "./route";
 import type { State } from "./state";
 
 /** What is shown; before the route has come, the stops beside t: a good guess. */
@@ -19,14 +19,14 @@ export function comingUp({ route, otherRoute, t }: State): string[] {
 }
 
 /** All materials of the route, by the distance from t to where they carry weight. */
-export function nearestFirst(route: RouteView, t: number): string[] {
+export function nearestFirst(route: Route, t: number): string[] {
   return route.names
     .map((name, i) => ({ name, distance: distance(route, i, t) }))
     .sort((a, b) => a.distance - b.distance)
     .map(({ name }) => name);
 }
 
-function distance({ knots, weights }: RouteView, i: number, t: number): number {
+function distance({ knots, weights }: Route, i: number, t: number): number {
   // A weight that is positive at a knot is so on both pieces around it.
   const carried = (k: number) => CHANNELS.some((channel) => (weights[channel][k]?.[i] ?? 0) > 0);
   return Math.min(

@@ -50,17 +50,17 @@ test("a block is read where it stands in a shared buffer", async () => {
 
 test("a mistake is Python's own line", async () => {
   const { client, sent, answer } = fake();
-  const place = client.at("linear", [0], new AbortController().signal);
+  const answered = client.at("linear", [0], new AbortController().signal);
   expect(sent[0]!.body).toBe('{"space":"linear","point":[0]}');
   answer(sent[0]!.id, 400, text({ error: "the space has no places." }));
-  await expect(place).rejects.toEqual(new Problem("the space has no places."));
+  await expect(answered).rejects.toEqual(new Problem("the space has no places."));
 });
 
 test("a question taken back is not answered", async () => {
   const { client, sent, answer } = fake();
   const asked = new AbortController();
-  const route = client.route("paper", "uniform", ["a", "b"], asked.signal);
+  const leg = client.leg("paper", "a", "b", asked.signal);
   asked.abort();
-  await expect(route).rejects.toThrow("aborted");
+  await expect(leg).rejects.toThrow("aborted");
   answer(sent[0]!.id, 200, text({}));
 });

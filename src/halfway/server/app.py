@@ -1,15 +1,15 @@
 """The HTTP face of the explorer: parse, one call, answer.
 
-    GET  /                          the page, and its files
-    GET  /api/library               what is being explored
-    GET  /api/spaces/{space}        a space as points to look at
-    GET  /api/route                 ?space=paper&stop=A&stop=B: weights at knots
-    POST /api/position              the recipe at a point of a space
-    GET  /api/tables/{material}     a table as half floats (`blocks`)
-    GET  /api/thumbnails            small pictures of all materials, as half floats
-    GET  /api/environment           the studio, as half floats
-    POST /api/export/{format}       a recipe's file: merl or bsdf
-    GET  /api/docs.json             this, as OpenAPI
+    GET  /                                       the page, and its files
+    GET  /api/library                            what is being explored
+    GET  /api/spaces/{space}                     a space as points to look at
+    GET  /api/legs/{space}/{start}/{stop}        the way from one material to another: weights at knots
+    POST /api/position                           the recipe at a point of a space
+    GET  /api/tables/{material}                  a table as half floats (`blocks`)
+    GET  /api/thumbnails                         small pictures of all materials, as half floats
+    GET  /api/environment                        the studio, as half floats
+    POST /api/export/{format}                    a recipe's file: merl or bsdf
+    GET  /api/docs.json                          this, as OpenAPI
 
 Every mistake is answered as ``{"error": "one line"}``.
 """
@@ -19,7 +19,7 @@ from importlib.metadata import version
 from threading import Thread
 from typing import Annotated, Any
 
-from fastapi import FastAPI, Path, Query, Request, Response
+from fastapi import FastAPI, Path, Request, Response
 from fastapi.exceptions import RequestValidationError
 from fastapi.responses import JSONResponse, StreamingResponse
 from starlette.exceptions import HTTPException
@@ -32,12 +32,12 @@ from .explorer import SUFFIXES, Explorer
 from .guard import LOOPBACK, Guard
 from .page import Page
 from .schema import (
+    LegView,
     LibrarySummary,
     Point,
     PositionView,
     Problem,
     RecipeDocument,
-    RouteView,
     SpaceView,
 )
 
@@ -101,13 +101,9 @@ def _add_queries(app: FastAPI, explorer: Explorer) -> None:
     def space(space: Name) -> SpaceView:
         return explorer.space_view(space)
 
-    @app.get("/api/route")
-    def route(
-        stop: Annotated[list[str], Query(max_length=64)],
-        space: Annotated[str, Query(max_length=50)],
-        pace: Annotated[str, Query(max_length=50)] = "perceptual",
-    ) -> RouteView:
-        return explorer.route(space, stop, pace)
+    @app.get("/api/legs/{space}/{start}/{stop}")
+    def leg(space: Name, start: Name, stop: Name) -> LegView:
+        return explorer.leg(space, start, stop)
 
     @app.post("/api/position")
     def position(point: Point) -> PositionView:

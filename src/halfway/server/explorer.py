@@ -21,20 +21,21 @@ from ..library import Library
 from ..look import Looks
 from ..recipes import Mixer, Recipe
 from ..render import SCENES, studio
-from ..space import PACES, SPACES, Embedding, Route, Scores, Space, make_space
+from ..space import PACES, SPACES, Embedding, Route, Scores, Space, lengths, make_space
 from ..space import route as route_through
 from ..tasks import HERE, Work, silent
 from .blocks import Block
 from .schema import (
     Axis,
     EmbeddingView,
+    LegView,
     LibrarySummary,
     Material,
+    PaceView,
     Point,
     PointLight,
     PositionView,
     RecipeDocument,
-    RouteView,
     SpaceSummary,
     SpaceView,
     WeightTable,
@@ -44,6 +45,8 @@ N_AXES = 3
 """Scores that can be looked at together."""
 N_TABLES = 16
 """Tables kept ready to be sent, 11.7 MB each on the MERL grid."""
+N_LEGS = 1000
+"""Legs kept ready to be sent, some 10 kB each."""
 MAX_STOPS = 32
 SUFFIXES = {"merl": ".binary", "bsdf": ".bsdf"}
 """Formats to take a material home in."""
@@ -61,11 +64,12 @@ class Explorer:
         self._spaces = {first: make_space(first, library, work=work)}
         self._making = Lock()
         self._block = lru_cache(N_TABLES)(partial(_block_of, library))
+        self._leg = lru_cache(N_LEGS)(self._leg_of)
         self._mixer = Mixer(library, n_rows=12)
 
     def warm(self) -> None:
         """Make what the first route needs: compiled metrics and solvers take a second to load."""
-        self.way(next(iter(SPACES)), [self.library.names[0], self.library.names[-1]], PACES[0])
+        self.leg(next(iter(SPACES)), self.library.names[0], self.library.names[-1])
 
     def summary(self) -> LibrarySummary:
         """What is being explored."""
@@ -103,9 +107,9 @@ class Explorer:
             embeddings=[EmbeddingView.model_validate(each, from_attributes=True) for each in shown],
         )
 
-    def route(self, space: str, stops: Sequence[str], pace: str) -> RouteView:
-        """The route through ``stops``, as the page takes it."""
-        return to_view(self.way(space, stops, pace))
+    def leg(self, space: str, start: str, stop: str) -> LegView:
+        """The way from one material to another, of which the page makes its routes."""
+        return self._leg(space, start, stop)
 
     def way(self, space: str, stops: Sequence[str], pace: str) -> Route:
         """The route through ``stops``."""
@@ -169,6 +173,9 @@ class Explorer:
         axes = [name.replace("_", " ") for name in scores.names]
         return Embedding(scores.label, "all", axes, scores.points, [])
 
+    def _leg_of(self, space: str, start: str, stop: str) -> LegView:
+        return leg_view(Route.through(self.space(space), [start, stop]), self.pictures)
+
     @property
     def _quiet(self) -> Work:
         return replace(self._work, track=silent)
@@ -181,30 +188,21 @@ class Explorer:
             return self._spaces[name]
 
 
-def to_view(route: Route) -> RouteView:
-    """The route as its knots, with the materials that carry weight anywhere on it."""
+def leg_view(route: Route, pictures: Looks) -> LegView:
+    """A route of two stops as its knots, with the materials that carry weight anywhere on it."""
     used = route.used()
     r, g, b = route.way.weights[:, :, used].clip(0, 1).tolist()
-    return RouteView(
-        library=route.library.name,
-        space=route.space,
-        pace=route.pace,
-        stops=list(route.stops),
-        stop_t=route.stop_ts.tolist(),
-        crossings=_crossings(route),
-        knots=route.way.knots.tolist(),
+    t, length = lengths(route, pictures)
+    return LegView(
         names=[route.names[i] for i in used],
+        knots=route.way.knots.tolist(),
         weights=WeightTable(r=r, g=g, b=b),
+        paces={
+            "perceptual": PaceView(t=t.tolist(), length=length.tolist()),
+            "uniform": PaceView(t=[0.0, 1.0], length=[0.0, 1.0]),
+        },
     )
 
 
 def _block_of(library: Library, name: str) -> Block:
     return Block.of_table(library.brdf(name))
-
-
-def _crossings(route: Route) -> list[float]:
-    """The inner knots at which the set of materials that carry weight changes."""
-    carries = route.way.weights > 0
-    pieces = carries[:, :-1] | carries[:, 1:]
-    changes = (pieces[:, 1:] != pieces[:, :-1]).any(axis=(0, 2))
-    return route.way.knots[1:-1][changes].tolist()

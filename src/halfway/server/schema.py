@@ -106,29 +106,32 @@ class SpaceView(Model):
 
 
 class WeightTable(Model):
-    """Weights at the knots of a route, per channel: ``[knot][name]``."""
+    """Weights at the knots of a leg, per channel: ``[knot][name]``."""
 
     r: list[list[Weight]]
     g: list[list[Weight]]
     b: list[list[Weight]]
 
 
-class RouteView(Model):
-    """A route, as weights at knots between which they are linear in t."""
+class PaceView(Model):
+    """How far a leg has come, at some t of it; linear between."""
 
-    library: str
-    space: str
-    pace: str
-    stops: list[str]
-    stop_t: list[float]
-    """Where each stop is on the route."""
-    crossings: list[float]
-    """Where a material enters or leaves the recipe of any channel."""
+    t: list[float]
+    """Ascending from 0 to 1."""
+    length: list[float]
+    """Ascending from 0 to how long the leg is beside others."""
+
+
+class LegView(Model):
+    """The way from one material to another in a space, as weights at knots between which they are linear in t."""
+
+    names: list[str]
+    """The materials that carry weight anywhere on it."""
     knots: list[float]
     """Ascending from 0 to 1."""
-    names: list[str]
-    """The materials that carry weight anywhere on the route."""
     weights: WeightTable
+    paces: dict[str, PaceView]
+    """For each pace: equal lengths take equal times."""
 
 
 class ChannelWeights(Model):
@@ -181,33 +184,16 @@ class Folder(Model):
     """In the library's order."""
 
 
-class TriangulationView(Model):
-    """A Delaunay triangulation: the place x of a space is (x - origin) frame, among ``points``."""
+class ChartView(Model):
+    """The simplices between the materials in one chart of a space."""
 
-    origin: list[float]
-    frame: list[list[float]]
-    points: list[list[float]]
-    """In the library's order."""
-    spread: list[float]
-    """What is one along each of their coordinates, where the nearest place of the hull is sought."""
     simplices: list[list[int]]
+    """Their vertices, in the library's order."""
+    barycentric: list[list[list[float]]]
+    """For each simplex what takes (x, 1) to the weights of its vertices: none is negative where x is inside."""
 
 
-class SpaceFile(Model):
-    """A space of a static explorer."""
+class ChartsFile(Model):
+    """The charts of a space of a static explorer: one for all channels, or one for each."""
 
-    view: SpaceView
-    triangulations: list[TriangulationView]
-    """One for all channels, one for each, or none where there are no places between routes."""
-
-
-class LegFile(Model):
-    """The way from one material to another in a space of a static explorer, at uniform pace."""
-
-    names: list[str]
-    knots: list[float]
-    weights: WeightTable
-    pace_t: list[float]
-    """Some t, ascending from 0 to 1."""
-    pace_length: list[float]
-    """How much has changed to the eye from the start to each (`halfway.space.pace`)."""
+    charts: list[ChartView]

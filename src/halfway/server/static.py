@@ -3,17 +3,19 @@
     DIR/
         index.html, assets/         the page; index.html says that its data are in the folder beside it
         data/explorer.json          the library, and what the blocks hold               schema.Folder
-        data/spaces/NAME.json       a space to look at, and its triangulation           schema.SpaceFile
-        data/legs/NAME/I-J.json     the way from material I to material J, I < J        schema.LegFile
+        data/spaces/NAME.json       a space to look at                                  schema.SpaceView
+        data/charts/NAME.json       its simplices, where it has points to go to         schema.ChartsFile
+        data/legs/NAME/I-J.json     the way from material I to material J, I < J        schema.LegView
         data/tables/I.bin           a table as half floats (`blocks`), gzip; so are
         data/thumbnails.bin, data/environment.bin
 
 Materials and spaces are called by number in paths, so a name may hold any letters. The folder is the explorer of a library of
 these materials alone: the spaces are theirs, and no recipe needs another.
 
-What the server works out, the page works out the same from these files. A route's legs are put one after another, and its
-pace is made of their lengths; the weights of a free place are barycentric in the triangulation, which for a few materials is
-small enough to write down. Exported tables alone stay with Python: the page holds half floats.
+What is solved is solved here. The page puts a route's legs one after another, whoever answers for them. At a free point it
+multiplies: each simplex has the matrix that gives the weights of its vertices, and a few materials have few enough simplices to
+write them down. Beyond them all it takes the simplex that is least beyond, without the vertices whose weights are negative: a
+mix nearby, where Python finds the nearest. Exported tables alone stay with Python: the page holds half floats.
 """
 
 import gzip
@@ -29,16 +31,16 @@ from ..batch import filling
 from ..errors import DegenerateSpaceWarning, OutputError
 from ..library import Library
 from ..look import Looks
-from ..space import SPACES, Route, Space, Triangulation, lengths
+from ..space import SPACES, Route, Space
 from ..tasks import HERE, Work
 from .blocks import Block
-from .explorer import Explorer, to_view
+from .explorer import Explorer, leg_view
 from .guard import META_POLICY
 from .page import Page
-from .schema import BlockFile, Folder, LegFile, Model, SpaceFile, TriangulationView
+from .schema import BlockFile, ChartsFile, ChartView, Folder, LegView, Model
 
 N_LARGEST = 40
-"""Materials that a folder takes: 780 ways in each space, and a triangulation of some thousand simplices."""
+"""Materials that a folder takes: 780 legs in each space, and some thousand simplices."""
 DATA = "./data/"
 
 
@@ -135,55 +137,32 @@ def _write_blocks(files: _Files, explorer: Explorer, work: Work) -> None:
 
 def _write_space(files: _Files, explorer: Explorer, name: str, work: Work) -> None:
     space = explorer.space(name)
-    files.json(
-        f"data/spaces/{name}.json",
-        SpaceFile(
-            view=explorer.space_view(name),
-            triangulations=triangulations(space),
-        ),
-    )
-    pairs = list(combinations(range(len(space.names)), 2))
-    legs = work.run(partial(_leg, space, explorer.pictures), pairs, label=f"Ways, {name}")
-    for (i, j), leg in zip(pairs, legs, strict=True):
+    files.json(f"data/spaces/{name}.json", explorer.space_view(name))
+    if space.charts:
+        files.json(f"data/charts/{name}.json", charts_file(space))
+    pairs = list(combinations(space.names, 2))
+    legs = work.run(partial(_leg, space, explorer.pictures), pairs, label=f"Legs, {name}")
+    for (i, j), leg in zip(combinations(range(len(space.names)), 2), legs, strict=True):
         files.json(f"data/legs/{name}/{i}-{j}.json", leg)
 
 
-def triangulations(space: Space) -> list[TriangulationView]:
+def _leg(space: Space, pictures: Looks, stops: tuple[str, str]) -> LegView:
+    return leg_view(Route.through(space, stops), pictures)
+
+
+def charts_file(space: Space) -> ChartsFile:
     """What the page needs to find the weights at a point."""
     with warnings.catch_warnings():
         # Said already, when the space was made.
         warnings.simplefilter("ignore", DegenerateSpaceWarning)
-        return [
-            _triangulation(triangulation, chart.coordinates.scale)
-            for triangulation, chart in zip(space.triangulations(), space.charts, strict=True)
+        triangulations = space.triangulations()
+    scales = [np.append(chart.coordinates.scale, 1.0) for chart in space.charts]
+    return ChartsFile(
+        charts=[
+            ChartView(
+                simplices=triangulation.simplices.tolist(),
+                barycentric=(triangulation.barycentric * scale).tolist(),
+            )
+            for triangulation, scale in zip(triangulations, scales, strict=True)
         ]
-
-
-def _triangulation(triangulation: Triangulation, scale: np.ndarray) -> TriangulationView:
-    """The triangulation of scaled points, of the points as they are."""
-    origin, basis = triangulation.origin, triangulation.basis
-    return TriangulationView(
-        origin=(origin / scale).tolist(),
-        frame=(scale[:, None] * basis).tolist(),
-        points=((triangulation.points - origin) @ basis).tolist(),
-        spread=[1.0] * triangulation.n_dimensions,
-        simplices=triangulation.simplices.tolist(),
-    )
-
-
-def _leg(space: Space, pictures: Looks, pair: tuple[int, int]) -> LegFile:
-    i, j = pair
-    return leg(Route.through(space, [space.names[i], space.names[j]]), pictures)
-
-
-def leg(route: Route, pictures: Looks) -> LegFile:
-    """A route of two stops, with how much changes along it."""
-    view = to_view(route)
-    t, length = lengths(route, pictures)
-    return LegFile(
-        names=view.names,
-        knots=view.knots,
-        weights=view.weights,
-        pace_t=t.tolist(),
-        pace_length=length.tolist(),
     )

@@ -6,13 +6,15 @@ length from the start to t, the paced route is
 
     u = L(t) / L(1)
 
-so that equal steps of u are equal lengths. L is measured between places that are added until no step is longer than
-`FINEST` of the whole; between them t is linear in u, and the recipes stay piecewise linear.
+so that equal steps of u are equal lengths. L is measured leg by leg, so that a leg is as long on any route, between values
+of t that are added until no step is longer than `FINEST` of the leg; between them t is linear in u, and the recipes stay
+piecewise linear.
 
 CIEDE2000 and not the plain distance in CIELAB: strong colours, where CIELAB exaggerates, would get all the steps.
 """
 
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 from jaxtyping import Float64
@@ -23,13 +25,13 @@ from .routes import Route
 from .way import Way
 
 FINEST = 1 / 200
-"""Largest step, as a share of the route's length, between places at which the length is measured."""
+"""Largest step, as a share of the leg's length, between two t at which the length is measured."""
 N_START = 65
-"""Even places to begin with."""
+"""Even steps of a leg to begin with, and one."""
 N_ROUNDS = 12
 """How often steps may be halved: a jump within 1/500,000 of t is an instant."""
 LEAST = 1e-9
-"""Length of a step in which nothing changes, as a share of the whole: u stays a function of t and t of u."""
+"""Length of a step in which nothing changes, as a share of the leg: u stays a function of t and t of u."""
 THINNING = 4
 """Every so many pixels of the basis images are enough to measure with."""
 
@@ -43,9 +45,26 @@ def perceptual(route: Route, images: Looks) -> Route:
 
 
 def lengths(route: Route, images: Looks) -> tuple[Shares, Shares]:
-    """Some t, the knots among them, and the length of the route from its start to each."""
+    """Some t, the knots among them, and the length of the route from its start to each, strictly ascending."""
     images = images.thinned(THINNING)
-    t = np.union1d(route.way.knots, np.linspace(0, 1, N_START))
+    legs = [_leg(route, images, start, stop) for start, stop in pairwise(route.stop_ts)]
+    t = [t[:-1] for t, _ in legs]
+    steps = np.concatenate([steps for _, steps in legs])
+    return np.append(np.concatenate(t), 1.0), np.append(0.0, np.cumsum(steps))
+
+
+def paced(route: Route, t: Shares, length: Shares) -> Route:
+    """The same way, equal lengths in equal times; ``length`` has been covered at each ``t``."""
+    u = length / length[-1]
+    stop_ts = np.interp(route.stop_ts, t, u)
+    return replace(route, pace="perceptual", way=Way(u, route.at(t)), stop_ts=stop_ts)
+
+
+def _leg(route: Route, images: Looks, start: float, stop: float) -> tuple[Shares, Shares]:
+    """Some t from one stop to the next, the knots among them, and the lengths of the steps between, none 0."""
+    knots = route.way.knots
+    between = knots[(knots >= start) & (knots <= stop)]
+    t = np.union1d(between, np.linspace(start, stop, N_START))
     looks = _looks(route, images, t)
     steps = _apart(looks[:-1], looks[1:])
     for _ in range(N_ROUNDS):
@@ -53,23 +72,14 @@ def lengths(route: Route, images: Looks) -> tuple[Shares, Shares]:
         if not len(long):
             break
         middle = (t[long] + t[long + 1]) / 2
-        between = _looks(route, images, middle)
-        second_halves = _apart(between, looks[long + 1])
-        steps[long] = _apart(looks[long], between)
+        halfway = _looks(route, images, middle)
+        second_halves = _apart(halfway, looks[long + 1])
+        steps[long] = _apart(looks[long], halfway)
         steps = np.insert(steps, long + 1, second_halves)
         t = np.insert(t, long + 1, middle)
-        looks = np.insert(looks, long + 1, between, axis=0)
-    return t, np.append(0.0, np.cumsum(steps))
-
-
-def paced(route: Route, t: Shares, length: Shares) -> Route:
-    """The same way, equal lengths in equal times; ``length`` has been covered at each ``t``."""
-    u = t
-    if length[-1]:
-        u = np.append(0.0, np.cumsum(np.diff(length) + LEAST * length[-1]))
-        u /= u[-1]
-    stop_ts = np.interp(route.stop_ts, t, u)
-    return replace(route, pace="perceptual", way=Way(u, route.at(t)), stop_ts=stop_ts)
+        looks = np.insert(looks, long + 1, halfway, axis=0)
+    length = np.append(0.0, np.cumsum(steps))
+    return t, np.diff(length) + LEAST * length[-1] if length[-1] else LEAST * np.diff(t)
 
 
 def _looks(route: Route, images: Looks, t: Shares) -> Lab:

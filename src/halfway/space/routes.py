@@ -65,7 +65,8 @@ class Route:
             tuple(stops),
             space.names,
             Way.chain(legs),
-            np.linspace(0, 1, len(stops)),
+            # The very numbers at which `Way.chain` puts its knots.
+            np.arange(len(stops)) / len(legs),
             space.blend,
         )
 

@@ -71,6 +71,14 @@ class Triangulation:
         """Dimensions in which the points extend."""
         return self.basis.shape[1]
 
+    @property
+    def barycentric(self) -> Float64[np.ndarray, "n_simplices n_vertices k_and_1"]:
+        """For each simplex what takes (x, 1) to the weights of its vertices, in the coordinates of `points`."""
+        flatten = np.column_stack([self.basis.T, -self.origin @ self.basis])
+        return self._inverses @ np.vstack(
+            [flatten, np.eye(1, flatten.shape[1], flatten.shape[1] - 1)]
+        )
+
     def weights(self, x: Float64[np.ndarray, " k"]) -> Float64[np.ndarray, " n_points"]:
         """Barycentric weights of ``x`` over all points.
 

@@ -1,6 +1,6 @@
 // What the page asks for, whoever answers: a server (`http`), a folder of files (`files`), or a notebook's kernel (`kernel`).
 
-import type { LibrarySummary, PlaceView, RecipeDocument, RouteView, SpaceView } from "./schema";
+import type { LegView, LibrarySummary, PositionView, RecipeDocument, SpaceView } from "./schema";
 
 /** A failure that a person can act on, in one line that says how. */
 export class Problem extends Error {}
@@ -16,14 +16,10 @@ export interface Block {
 export interface Client {
   readonly library: () => Promise<LibrarySummary>;
   readonly spaceView: (space: string) => Promise<SpaceView>;
-  readonly route: (
-    space: string,
-    pace: string,
-    stops: readonly string[],
-    signal: AbortSignal,
-  ) => Promise<RouteView>;
-  /** The material at a point of a space. */
-  readonly at: (space: string, point: readonly number[], signal: AbortSignal) => Promise<PlaceView>;
+  /** The way from one material to another that comes after it in the library. */
+  readonly leg: (space: string, start: string, stop: string, signal: AbortSignal) => Promise<LegView>;
+  /** The material at a point of a space that has points. */
+  readonly at: (space: string, point: readonly number[], signal: AbortSignal) => Promise<PositionView>;
   readonly thumbnails: () => Promise<Block>;
   readonly environment: () => Promise<Block>;
   /** One material's table; `onProgress` is told the share that has come, in [0, 1]. */

@@ -1,48 +1,40 @@
-// A folder of files that any static host serves (halfway.server.static), instead of a server: routes are joined and places found
-// in the page.
+// A folder of files that any static host serves (halfway.server.static), instead of a server.
 
+import { locate } from "../charts";
 import { pointOf } from "../coordinates";
-import { type Ingredient, toDocument } from "../recipe";
-import { join, reversed } from "../space/legs";
-import { nearest, weightsAt } from "../space/triangulation";
+import { toDocument } from "../recipe";
 import { type Block, type Client, Problem } from "./client";
 import { read } from "./http";
-import type { BlockFile, Folder, LegFile, PlaceView, SpaceFile, SpaceView } from "./schema";
-
-/** A place counts as reached within this share of the extent of each coordinate: halfway.server.explorer. */
-const INSIDE = 1e-6;
+import type { BlockFile, ChartView, Folder, PositionView, SpaceView } from "./schema";
 
 export function files(base: string): Client {
-  const json = <T>(path: string, signal?: AbortSignal) =>
-    fetched(`${base}${path}`, signal).then((answer) => answer.json() as Promise<T>);
-  const folder = json<Folder>("explorer.json");
-  // What goes wrong here is said by whoever asks first.
-  folder.catch(() => {});
-  const spaces = new Map<string, Promise<SpaceFile>>();
-  const space = (name: string) => {
-    const known = spaces.get(name) ?? json<SpaceFile>(`spaces/${name}.json`);
-    spaces.set(name, known);
-    known.catch(() => spaces.delete(name));
-    return known;
+  const kept = new Map<string, Promise<unknown>>();
+  /** A file that is asked for once, or again when it did not come. */
+  const json = <T>(path: string): Promise<T> => {
+    const known = kept.get(path) ?? fetched(`${base}${path}`).then((answer) => answer.json());
+    kept.set(path, known);
+    known.catch(() => kept.delete(path));
+    return known as Promise<T>;
   };
-  const names = async () => (await folder).library.materials.map(({ name }) => name);
+  const folder = () => json<Folder>("explorer.json");
+  const names = async () => (await folder()).library.materials.map(({ name }) => name);
+  const spaceView = (space: string) => json<SpaceView>(`spaces/${space}.json`);
   return {
-    library: async () => (await folder).library,
-    spaceView: async (name) => (await space(name)).view,
-    route: async (name, pace, stops, signal) => {
+    library: async () => (await folder()).library,
+    spaceView,
+    leg: async (space, start, stop) => {
       const all = await names();
-      const legs = stops
-        .slice(1)
-        .map((stop, i) => leg(json, name, all.indexOf(stops[i]!), all.indexOf(stop), signal));
-      const { library } = await folder;
-      return join({ library: library.name, space: name, pace, stops, names: all }, await Promise.all(legs));
+      return json(`legs/${space}/${all.indexOf(start)}-${all.indexOf(stop)}.json`);
     },
-    at: async (name, point) => placed(await space(name), (await folder).library.name, await names(), point),
-    thumbnails: async () => block(`${base}thumbnails.bin`, (await folder).thumbnails),
-    environment: async () => block(`${base}environment.bin`, (await folder).environment),
+    at: async (space, point) => {
+      const { charts } = await json<{ charts: ChartView[] }>(`charts/${space}.json`);
+      return position(await spaceView(space), charts, (await folder()).library.name, await names(), point);
+    },
+    thumbnails: async () => block(`${base}thumbnails.bin`, (await folder()).thumbnails),
+    environment: async () => block(`${base}environment.bin`, (await folder()).environment),
     table: async (name, onProgress) => {
       const i = (await names()).indexOf(name);
-      return block(`${base}tables/${i}.bin`, (await folder).tables[i]!, onProgress);
+      return block(`${base}tables/${i}.bin`, (await folder()).tables[i]!, onProgress);
     },
     exported: async () => {
       throw new Problem("Files cannot mix tables: save the recipe, and `halfway mix` makes its table.");
@@ -50,54 +42,25 @@ export function files(base: string): Client {
   };
 }
 
-async function leg(
-  json: <T>(path: string, signal?: AbortSignal) => Promise<T>,
-  space: string,
-  from: number,
-  to: number,
-  signal: AbortSignal,
-): Promise<LegFile> {
-  if (from < to) return json(`legs/${space}/${from}-${to}.json`, signal);
-  return reversed(await json<LegFile>(`legs/${space}/${to}-${from}.json`, signal));
-}
-
-/** The material at a place, as halfway.server.explorer finds it. */
-export function placed(
-  { view, triangulations }: SpaceFile,
+/** The material at a point, or a mix nearby; one chart is for all channels. */
+export function position(
+  view: SpaceView,
+  charts: readonly ChartView[],
   library: string,
   names: readonly string[],
   point: readonly number[],
-): PlaceView {
-  if (triangulations.length === 0) {
-    throw new Problem(`the space '${view.name}' has no places between its routes: choose another space.`);
-  }
-  const size = point.length / triangulations.length;
-  const weights = triangulations.map((triangulation, i) => {
-    const place = point.slice(i * size, (i + 1) * size);
-    return weightsAt(triangulation, place) ?? nearest(triangulation, place);
-  });
-  const recipe = toRecipe(names, weights);
-  const reached = pointOf(view, names, recipe);
-  const inside = extents(view).every((extent, k) => Math.abs(reached[k]! - point[k]!) <= INSIDE * extent);
-  return { recipe: toDocument(library, recipe), point: reached, inside };
-}
-
-/** Weights over all materials, of all channels or of each, as a recipe. */
-function toRecipe(names: readonly string[], weights: readonly (readonly number[])[]): Ingredient[] {
-  const [r, g = r, b = r] = weights as readonly [number[], number[]?, number[]?];
-  return names
-    .map((name, i) => ({ name, weight: [r[i]!, g[i]!, b[i]!] as const }))
+): PositionView {
+  const size = point.length / charts.length;
+  const located = charts.map((chart, c) => locate(chart, point.slice(c * size, (c + 1) * size)));
+  const weight = (i: number, c: number) => {
+    const { vertices, weights } = located[c % located.length]!;
+    return weights[vertices.indexOf(i)] ?? 0;
+  };
+  const recipe = names
+    .map((name, i) => ({ name, weight: [weight(i, 0), weight(i, 1), weight(i, 2)] as const }))
     .filter(({ weight }) => weight.some((w) => w > 0));
-}
-
-/** How far the materials extend along each coordinate, of one embedding after another. */
-function extents({ embeddings }: SpaceView): number[] {
-  return embeddings.flatMap(({ axes, points }) =>
-    axes.map((_, k) => {
-      const values = points.map((point) => point[k]!);
-      return Math.max(...values) - Math.min(...values);
-    }),
-  );
+  const inside = located.every((each) => each.inside);
+  return { recipe: toDocument(library, recipe), point: pointOf(view, names, recipe), inside };
 }
 
 async function block(
@@ -110,16 +73,12 @@ async function block(
   return { halfs: new Uint16Array(await new Response(unpacked).arrayBuffer()), shape, scale };
 }
 
-async function fetched(path: string, signal?: AbortSignal): Promise<Response> {
-  let answer: Response;
-  try {
-    answer = await fetch(path, signal ? { signal } : {});
-  } catch (error) {
-    if (error instanceof DOMException && error.name === "AbortError") throw error;
+async function fetched(path: string): Promise<Response> {
+  const answer = await fetch(path).catch(() => {
     throw new Problem(
       `${path} cannot be read: a page opened as a file may read no others, so serve the folder.`,
     );
-  }
+  });
   if (answer.ok) return answer;
   throw new Problem(`${path} is not there (${answer.status}): copy the whole folder that was exported.`);
 }

@@ -29,12 +29,9 @@ export function clientOver(ask: Ask): Client {
   return {
     library: async () => json(await get("api/library")),
     spaceView: async (space) => json(await get(`api/spaces/${encodeURIComponent(space)}`)),
-    route: async (space, pace, stops, signal) => {
-      const query = new URLSearchParams({ space, pace });
-      for (const stop of stops) query.append("stop", stop);
-      return json(await get(`api/route?${query}`, signal));
-    },
-    at: async (space, point, signal) => json(await post("api/place", { space, point }, signal)),
+    leg: async (space, start, stop, signal) =>
+      json(await get(`api/legs/${[space, start, stop].map(encodeURIComponent).join("/")}`, signal)),
+    at: async (space, point, signal) => json(await post("api/position", { space, point }, signal)),
     thumbnails: async () => block(await get("api/thumbnails")),
     environment: async () => block(await get("api/environment")),
     table: async (name, onProgress = () => {}) =>

@@ -66,24 +66,25 @@ export interface SpaceView {
   readonly embeddings: readonly EmbeddingView[];
 }
 
-/** Weights at the knots of a route, per channel: ``[knot][name]``. */
+/** Weights at the knots of a leg, per channel: ``[knot][name]``. */
 export interface WeightTable {
   readonly r: readonly (readonly number[])[];
   readonly g: readonly (readonly number[])[];
   readonly b: readonly (readonly number[])[];
 }
 
-/** A route, as weights at knots between which they are linear in t. */
-export interface RouteView {
-  readonly library: string;
-  readonly space: string;
-  readonly pace: string;
-  readonly stops: readonly string[];
-  readonly stop_t: readonly number[];
-  readonly crossings: readonly number[];
-  readonly knots: readonly number[];
+/** How far a leg has come, at some t of it; linear between. */
+export interface PaceView {
+  readonly t: readonly number[];
+  readonly length: readonly number[];
+}
+
+/** The way from one material to another in a space, as weights at knots between which they are linear in t. */
+export interface LegView {
   readonly names: readonly string[];
+  readonly knots: readonly number[];
   readonly weights: WeightTable;
+  readonly paces: Readonly<Record<string, PaceView>>;
 }
 
 /** A recipe's weights where the channels differ. */
@@ -127,26 +128,13 @@ export interface Folder {
   readonly tables: readonly BlockFile[];
 }
 
-/** A Delaunay triangulation: the place x of a space is (x - origin) frame, among ``points``. */
-export interface TriangulationView {
-  readonly origin: readonly number[];
-  readonly frame: readonly (readonly number[])[];
-  readonly points: readonly (readonly number[])[];
-  readonly spread: readonly number[];
+/** The simplices between the materials in one chart of a space. */
+export interface ChartView {
   readonly simplices: readonly (readonly number[])[];
+  readonly barycentric: readonly (readonly (readonly number[])[])[];
 }
 
-/** A space of a static explorer. */
-export interface SpaceFile {
-  readonly view: SpaceView;
-  readonly triangulations: readonly TriangulationView[];
-}
-
-/** The way from one material to another in a space of a static explorer, at uniform pace. */
-export interface LegFile {
-  readonly names: readonly string[];
-  readonly knots: readonly number[];
-  readonly weights: WeightTable;
-  readonly pace_t: readonly number[];
-  readonly pace_length: readonly number[];
+/** The charts of a space of a static explorer: one for all channels, or one for each. */
+export interface ChartsFile {
+  readonly charts: readonly ChartView[];
 }

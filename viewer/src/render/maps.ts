@@ -6,7 +6,7 @@
 
 import { Matrix3, Vector3 } from "three";
 
-import type { Embedding } from "../api/schema";
+import type { EmbeddingView } from "../api/schema";
 import { mixedPoint } from "../coordinates";
 import { clamp } from "../numbers";
 import type { Ingredient } from "../recipe";
@@ -32,7 +32,7 @@ export class CoordinateMap implements SpaceMap {
   private readonly turn = new Matrix3();
 
   constructor(
-    private readonly embedding: Embedding,
+    private readonly embedding: EmbeddingView,
     private readonly names: readonly string[],
   ) {
     const columns = embedding.axes.map((_, axis) => embedding.points.map((point) => point[axis]!));

@@ -22,12 +22,12 @@ export function bodyColour({ store, actions, names }: Context): HTMLElement {
   const back = el("button.button", { type: "button", onclick: leave }, "Back to route");
   const element = el("div.line.wrap.adjustment", label, note, back);
   store.watch(["view", "recipe", "atPoint"], ({ view, recipe, atPoint }) => {
-    const has = view?.embeddings.some(({ name }) => name === BODY) ?? false;
+    const has = !!view?.has_points && view.embeddings.some(({ name }) => name === BODY);
     element.hidden = !has && atPoint === null;
     label.hidden = !has;
     input.disabled = recipe.length === 0;
     back.hidden = atPoint === null;
-    note.textContent = atPoint === null || atPoint.inside ? "" : "no mix is just there: this is the nearest";
+    note.textContent = atPoint === null || atPoint.inside ? "" : "no mix is just there: this is one nearby";
     if (!view || !has || recipe.length === 0 || input.matches(":focus")) return;
     const body = coordinatesIn(view, pointOf(view, names, recipe), BODY);
     input.value = toHex(body.map((x) => x * Math.PI));

@@ -1,10 +1,9 @@
 // Small pictures along t, ticks where the recipe changes its simplex, and a range input on top. With a second row for the
 // space that is compared.
 
-import type { RouteView } from "../../api/schema";
 import type { Context } from "../../context";
 import { el, onResize, style } from "../../dom";
-import { recipeAt } from "../../recipe";
+import { type Route, recipeAt } from "../../route";
 import { comparedSpace } from "../../state";
 
 /** Of a row, in CSS pixels: a picture, and the ticks below it. */
@@ -81,7 +80,7 @@ function toX(t: number, width: number): number {
 function drawPictures(
   { thumbnails }: Context,
   pen: CanvasRenderingContext2D,
-  route: RouteView,
+  route: Route,
   width: number,
   top: number,
 ): void {
@@ -97,7 +96,7 @@ function drawPictures(
 function drawTicks(
   { root }: Context,
   pen: CanvasRenderingContext2D,
-  { crossings, stop_t: stops }: RouteView,
+  { crossings, stops }: Route,
   width: number,
   bottom: number,
 ): void {

@@ -3,13 +3,14 @@
 import type { Vector3 } from "three";
 
 import type { Context } from "../../context";
-import { coordinatesIn, hasPoints, pointOf, withCoordinates } from "../../coordinates";
+import { coordinatesIn, pointOf, withCoordinates } from "../../coordinates";
 import { el, onResize, segments, style } from "../../dom";
 import { paced } from "../../paced";
-import { recipeAt, weightIn } from "../../recipe";
+import { weightIn } from "../../recipe";
 import { Appearance } from "../../render/appearance";
 import { Cloud } from "../../render/cloud";
 import { CoordinateMap } from "../../render/maps";
+import { recipeAt } from "../../route";
 import type { State } from "../../state";
 import { turnOnKeys } from "../material/orbit";
 import { Labels } from "./labels";
@@ -123,7 +124,7 @@ class SpacePicture {
     const { atPoint } = this.context.store.get();
     const axes = this.embedding?.axes;
     if (atPoint !== null && !atPoint.inside)
-      this.note.textContent = "no mix is at the ring: the dot is the nearest";
+      this.note.textContent = "no mix is at the ring: the dot is one nearby";
     else this.note.textContent = axes ? `${axes.join(", ")}; quantile scales` : "close together: look alike";
   }
 
@@ -225,7 +226,7 @@ class SpacePicture {
     const { cloud, here } = this;
     if (here === null || !(cloud.map instanceof CoordinateMap)) return false;
     const at = cloud.project(here);
-    return hasPoints(this.context.store.get().view) && Math.hypot(at.x - x, at.y - y) <= MARKER;
+    return !!this.context.store.get().view?.has_points && Math.hypot(at.x - x, at.y - y) <= MARKER;
   }
 
   private drag(x: number, y: number): void {
