@@ -181,7 +181,7 @@ def test_a_new_table_needs_no_new_kernel():
     with dr.scoped_set_flag(dr.JitFlag.KernelHistory, True):
         dr.kernel_history_clear()
         for brdf in (PLASTIC, MIRROR, METAL):
-            parameters["table"] = buffer(bsdf_module.pack(brdf))
+            parameters["table"] = bsdf_module.pack(brdf)
             parameters.update()
             got = evaluated(bsdf, wi, wo)
             weights = samples(bsdf, 45)

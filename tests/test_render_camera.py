@@ -9,8 +9,8 @@ from numpy.testing import assert_allclose
 from halfway.brdf import TabularBrdf
 from halfway.errors import RenderError
 from halfway.halfdiff import Grid
-from halfway.render import QUALITY, Renderer
-from halfway.render.camera import camera_to_world, window
+from halfway.render import Renderer
+from halfway.render.camera import COARSE, Window, camera_to_world, coarse, refined, window
 from halfway.render.denoise import denoised
 from halfway.render.exposure import PASS_SAMPLES, Exposure, Layer
 from halfway.render.scenes import SCENES, Camera
@@ -70,12 +70,32 @@ def test_denoising_takes_the_noise_and_leaves_the_light():
     pytest.importorskip("mitsuba_oidn", reason="the denoiser has no wheel for this platform")
     noise = np.random.default_rng(0).gamma(4, 0.25, (64, 64, 1)).astype(np.float32)
     radiance = np.repeat(noise, 3, axis=-1)
-    flat = np.full_like(radiance, 0.5)
-    layer = Layer(radiance, np.ones((64, 64, 1), np.float32), flat, flat)
-    quiet = denoised(layer)
+    quiet = denoised(radiance)
     assert quiet.shape == radiance.shape
     assert_allclose(quiet.mean(), radiance.mean(), rtol=0.03)
     assert quiet.std() < 0.2 * radiance.std()
+
+
+def test_a_layer_covers_what_is_behind_it_in_its_window():
+    light = np.full((2, 2, 3), 0.6, np.float32)
+    layer = Layer(Window(1, 0, 2, 2), light, np.full((2, 2, 1), 0.25, np.float32))
+    picture = layer.over(np.full((3, 4, 3), 0.8, np.float32))
+    assert_allclose(picture[:2, 1:3], 0.6 + 0.75 * 0.8)
+    assert_allclose(picture[2], 0.8)
+    assert_allclose(picture[:, [0, 3]], 0.8)
+
+
+@pytest.mark.parametrize("size", [(64, 48), (63, 47), (5, 4)])
+def test_a_coarse_picture_grows_about_its_middle(size):
+    """A ramp of one unit a pixel, 0 in the middle, is that ramp again, but for the border that nothing lies beyond."""
+    width, height = coarse(size)
+    x = COARSE * (np.arange(width) - (width - 1) / 2)
+    ramp = np.broadcast_to(x[None, :, None], (height, width, 3)).astype(np.float32)
+    fine = refined(ramp, size)
+    assert fine.shape == (size[1], size[0], 3)
+    expected = np.arange(size[0]) - (size[0] - 1) / 2
+    assert_allclose(fine[0, 1:-1, 0], expected[1:-1], atol=1e-5)
+    assert refined(fine, size) is fine
 
 
 def test_a_missing_denoiser_says_what_to_install(monkeypatch):
@@ -83,8 +103,3 @@ def test_a_missing_denoiser_says_what_to_install(monkeypatch):
     with pytest.raises(RenderError, match="pip install mitsuba-oidn"):
         Renderer("sphere", denoise=True)
     assert Renderer("sphere", size=(8, 8), spp=1).backdrop.shape == (8, 8, 3)
-
-
-def test_qualities_are_options_of_a_renderer():
-    for options in QUALITY.values():
-        Renderer("sphere", size=(8, 8), **options)

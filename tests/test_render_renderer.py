@@ -10,7 +10,9 @@ from halfway.brdf import TabularBrdf
 from halfway.errors import RenderError
 from halfway.halfdiff import Grid
 from halfway.render import SCENES, Renderer
+from halfway.render.exposure import Exposure
 from halfway.render.studio import _on_the_ground, as_bright_as_the_studio, directions, studio
+from halfway.tasks import Work
 
 GRID = Grid.merl(12, 10, 12)
 
@@ -20,7 +22,7 @@ def lambertian(*albedo: float) -> TabularBrdf:
     return TabularBrdf(np.broadcast_to(values, (3, *GRID.shape)).copy(), GRID)
 
 
-RED, GREEN = lambertian(0.8, 0.1, 0.1), lambertian(0.1, 0.6, 0.1)
+RED, GREEN, BLACK = lambertian(0.8, 0.1, 0.1), lambertian(0.1, 0.6, 0.1), lambertian(0, 0, 0)
 
 
 @pytest.fixture(scope="module")
@@ -53,6 +55,42 @@ def test_the_material_colours_the_object_and_not_the_ground(teapot):
     assert_allclose(red[-1, 0], red[-1, 0, 0], rtol=0.02)
     assert_array_equal(red[-1], teapot.picture(GREEN)[-1])
     assert red[-1].min() > 0.2
+
+
+def test_the_object_before_its_backdrop_is_the_picture_of_one_scene():
+    """Of a black object, which no light from the ground changes."""
+    renderer = Renderer("teapot", size=(48, 40), spp=256)
+    together = renderer._stage.whole([BLACK], Exposure(256, 5), bounces=1).over(renderer.backdrop)
+    picture = renderer.picture(BLACK)
+    assert_allclose(picture.mean(), together.mean(), rtol=0.005)
+    # The noise of 256 samples is 2 % here, and the backdrop is coarse.
+    assert np.abs(picture - together).mean() < 0.03 * together.mean()
+
+
+def test_the_backdrop_is_seen_through_the_object_and_has_its_shadow(teapot):
+    backdrop = teapot.backdrop
+    assert backdrop.shape == (40, 48, 3)
+    assert backdrop[27, 22].max() < 0.05 * backdrop[-1, 0].min()  # under the foot
+    assert backdrop[4, 24].min() > 0.2  # behind the lid
+    assert_array_equal(teapot.picture(BLACK)[0], backdrop[0])
+
+
+def test_the_backdrop_is_rendered_once_for_all_materials_and_seeds(tmp_path, monkeypatch):
+    work = Work(cache=tmp_path)
+    first = Renderer("teapot", size=(24, 20), spp=4, work=work).backdrop
+    monkeypatch.setattr("halfway.render.stage.Stage.ground", None)
+    assert_array_equal(Renderer("teapot", size=(24, 20), spp=16, seed=1, work=work).backdrop, first)
+    with pytest.raises(TypeError):  # another size asks for another
+        _ = Renderer("teapot", size=(25, 20), spp=4, work=work).backdrop
+
+
+def test_an_environment_lights_every_scene(tmp_path):
+    env = tmp_path / "red.hdr"
+    env.write_bytes(
+        b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n" + bytes([128, 0, 0, 128] * 2)
+    )
+    picture = Renderer("spheres", size=(16, 16), spp=4, env=env).picture(lambertian(0.5, 0.5, 0.5))
+    assert picture[8, 8, 0] > 10 * picture[8, 8, 1]
 
 
 def test_a_point_lit_sphere_shows_its_brdf():

@@ -172,11 +172,12 @@ Environment = Annotated[
 Mesh = Annotated[Path | None, typer.Option(help="Mesh (.ply, .obj) in place of the object.")]
 Size = Annotated[str, typer.Option(metavar="PIXELS", help="Of one picture: 384, or 640x480.")]
 RenderQuality = Annotated[
-    Quality, typer.Option(help="preview: 16 samples, denoised; normal: 64; final: 256.")
+    Quality, typer.Option(help="preview: 16 samples; normal: 64; final: 256.")
 ]
 Spp = Annotated[int | None, typer.Option(help="Samples per pixel, instead of the quality's.")]
 Denoise = Annotated[
-    bool | None, typer.Option(help="Take the noise out, or not, instead of the quality's.")
+    bool | None,
+    typer.Option(help="Take the noise out, which is the default where the denoiser is installed."),
 ]
 Bounces = Annotated[int | None, typer.Option(help="Of light between surfaces; 1 is direct light.")]
 InStrip = Annotated[int, typer.Option("-n", help="Pictures of a longer route in a strip.")]

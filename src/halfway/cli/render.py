@@ -44,20 +44,20 @@ def render(
     halfway render teflon chrome gold-paint -o three.png --scene trio
     """
     from halfway.recipes import open_materials
-    from halfway.render import QUALITY, Renderer, in_rows, write_pictures
+    from halfway.render import QUALITY, Renderer, denoiser_available, in_rows, write_pictures
 
     rows = in_rows([open_materials([word], library=library) for word in words])
-    default = QUALITY[quality]
     renderer = Renderer(
         scene,
         size=options.parse_size(size),
-        spp=default["spp"] if spp is None else spp,
-        denoise=bool(default["denoise"]) if denoise is None else denoise,
+        spp=QUALITY[quality] if spp is None else spp,
+        denoise=denoiser_available() if denoise is None else denoise,
         seed=seed,
         env=env,
         mesh=mesh,
         bounces=bounces,
         device=device.value,
+        work=work(),
     )
     with writing(output if output.suffix else None, force=force):
         written = write_pictures(

@@ -2,6 +2,7 @@
 
 from . import pictures
 from .basis import BasisPictures
+from .denoise import denoiser_available
 from .doctor import Finding, doctor
 from .fits import fit_sheet
 from .frames import Frame, write_frames
@@ -19,6 +20,7 @@ __all__ = [
     "Frame",
     "Renderer",
     "Scene",
+    "denoiser_available",
     "doctor",
     "fit_sheet",
     "in_rows",

@@ -63,8 +63,9 @@ class TableBsdf(mi.BSDF):
         brdf = brdf or _read(props)
         require_isotropic(brdf, "its importance sampling")
         self.grid = brdf.grid
-        self.table = buffer(pack(brdf))
-        self.sampling = HalfVectorSampling(self)
+        self.table = pack(brdf)
+        self.sampling = HalfVectorSampling(brdf.grid)
+        self.sampling.follow(self.values)
         self.primaries = buffer(_primaries()) if mi.is_spectral else None
         self.m_flags = mi.BSDFFlags.GlossyReflection | mi.BSDFFlags.FrontSide
         self.m_components = [self.m_flags]
@@ -97,7 +98,7 @@ class TableBsdf(mi.BSDF):
         return bs, weight & active
 
     def eval_diffuse_reflectance(self, si: Any, active: Any = True) -> Any:
-        """The albedo guide of a denoiser: the material's mean reflectance."""
+        """The material's mean reflectance: an albedo, as a denoiser's guide."""
         return self._spectrum(self.sampling.reflectance, si) & active
 
     def values(self, wi: Any, wo: Any, active: Any) -> Any:
@@ -121,7 +122,7 @@ class TableBsdf(mi.BSDF):
                 raise RenderError(
                     f"the new table has {dr.width(self.table)} floats: a {self.grid} grid takes {4 * self.grid.size}."
                 )
-            self.sampling = HalfVectorSampling(self)
+            self.sampling.follow(self.values)
 
     def _spectrum(self, color: Any, si: Any) -> Any:
         """The colour as this variant carries it."""
@@ -149,12 +150,16 @@ class TableBsdf(mi.BSDF):
         return f"TableBsdf[{self.grid}]"
 
 
-def pack(brdf: TabularBrdf) -> np.ndarray:
-    """The samples as the renderer reads them, float32, shape (4 * grid.size,): r, g, b, 0 of each cell."""
-    cells = np.zeros((brdf.grid.size, 4), np.float32)
-    for channel, values in enumerate(brdf.values.reshape(3, -1)):
-        cells[:, channel] = np.where(np.isnan(values), np.float32(UNMEASURED), values)
-    return cells.ravel()
+def pack(brdf: TabularBrdf) -> Any:
+    """The samples as the renderer reads them, a Dr.Jit float array of 4 * grid.size: r, g, b, 0 of each cell."""
+    red, green, blue = (_known(buffer(channel)) for channel in brdf.values)
+    return dr.ravel(mi.Vector4f(red, green, blue, 0))
+
+
+def _known(values: Any) -> Any:
+    """The values, `UNMEASURED` for NaN."""
+    magnitude = dr.reinterpret_array(mi.UInt32, values) & 0x7FFFFFFF
+    return dr.select(magnitude > 0x7F800000, UNMEASURED, values)
 
 
 def multilinear(grid: Grid, wi: Any, wo: Any) -> list[tuple[Any, Any]]:

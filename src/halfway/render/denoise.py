@@ -5,9 +5,8 @@ from importlib.util import find_spec
 import numpy as np
 
 from ..errors import RenderError
-from .exposure import Layer
 
-MARGIN = 32
+MARGIN = 8
 """Pixels added on every side: the denoiser's network tints the border of what it is given."""
 
 
@@ -31,18 +30,15 @@ def require_denoiser() -> None:
         )
 
 
-def denoised(layer: Layer) -> np.ndarray:
-    """The layer's radiance without its noise, led by its guides; float32, shape (height, width, 3)."""
+def denoised(radiance: np.ndarray) -> np.ndarray:
+    """Radiance without its noise, float32, shape (height, width, 3).
+
+    Albedo and normals as guides would cost as much again as the samples, and help less than these would.
+    """
     import mitsuba_oidn
 
-    height, width = layer.radiance.shape[:2]
-    images = (layer.radiance, layer.albedo, layer.normal)
-    color, albedo, normal = (_framed(image) for image in images)
-    result = np.array(mitsuba_oidn.denoise(color, albedo, normal, hdr=True))
-    return result[MARGIN : MARGIN + height, MARGIN : MARGIN + width].copy()
-
-
-def _framed(image: np.ndarray) -> np.ndarray:
-    """The image in a margin of its own mirror image."""
+    height, width = radiance.shape[:2]
     margins = ((MARGIN, MARGIN), (MARGIN, MARGIN), (0, 0))
-    return np.ascontiguousarray(np.pad(image, margins, mode="symmetric"), np.float32)
+    framed = np.ascontiguousarray(np.pad(radiance, margins, mode="symmetric"), np.float32)
+    result = np.array(mitsuba_oidn.denoise(framed, hdr=True))
+    return result[MARGIN : MARGIN + height, MARGIN : MARGIN + width].copy()

@@ -7,6 +7,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from .camera import Window
+
 PASS_SAMPLES = 2**25
 """The most samples that are under way at once: their random numbers take some 16 bytes each."""
 
@@ -24,11 +26,11 @@ def no_progress(done: int, total: int) -> None:
 
 @dataclass(frozen=True)
 class Exposure:
-    """Samples per pixel, their seed, and whether the denoiser's guides are wanted."""
+    """Samples per pixel, their seed, and whether their noise is taken out."""
 
     spp: int
     seed: int
-    guides: bool = False
+    denoise: bool = False
     progress: Callable[[int, int], None] = no_progress
     """Called with the passes done and their number."""
 
@@ -43,12 +45,19 @@ class Exposure:
 
 
 class Layer(NamedTuple):
-    """What the camera sees of some objects; everything is multiplied by ``alpha``, so layers add up."""
+    """What the camera sees of some objects, in the window of its frame that they fill."""
 
-    radiance: np.ndarray  # (height, width, 3), linear RGB
-    alpha: np.ndarray  # (height, width, 1), 1 where an object covers the pixel
-    albedo: np.ndarray  # (height, width, 3), a guide for the denoiser
-    normal: np.ndarray  # (height, width, 3), the same
+    window: Window
+    radiance: np.ndarray
+    """Linear RGB, shape (height, width, 3); 0 where no object covers the pixel, so that layers add up."""
+    alpha: np.ndarray
+    """How much of the pixel the objects cover, shape (height, width, 1)."""
 
-    def __add__(self, other: "Layer") -> "Layer":  # pyright: ignore[reportIncompatibleMethodOverride]
-        return Layer(*(a + b for a, b in zip(self, other, strict=True)))
+    def over(self, background: np.ndarray) -> np.ndarray:
+        """The picture before a background, shape (height, width, 3) of the frame."""
+        picture = background.copy()
+        x, y, width, height = self.window
+        part = picture[y : y + height, x : x + width]
+        part *= 1 - self.alpha
+        part += self.radiance
+        return picture

@@ -1,13 +1,12 @@
 """Pictures of materials: a scene is loaded and compiled once, then takes any number of tables.
 
-With direct light a picture has two layers that add up:
+With direct light a picture is its object before a backdrop:
 
-    picture = object(material) + backdrop
+    picture = object(material) + (1 - alpha) backdrop          alpha: how much of a pixel the object covers
 
 The object is lit by the environment alone, whose floor stands for the ground. The backdrop is the ground with the shadow
-of the object, black where the object covers it; no material enters, so it is rendered once (and denoised, where that is
-possible). The object's layer is linear in the BRDF and the backdrop constant: with weights that sum to 1, the picture of a
-mix is the mix of the pictures.
+of the object; no material enters, so it is rendered once, without noise where that is possible, and kept. The object is
+linear in the BRDF and the backdrop constant: with weights that sum to 1, the picture of a mix is the mix of the pictures.
 
 With more bounces the ground and the objects stand in one scene and light each other, and that no longer holds.
 """
@@ -21,8 +20,10 @@ import numpy as np
 
 from ..brdf import TabularBrdf
 from ..errors import RenderError
-from .denoise import denoised, denoiser_available, require_denoiser
-from .exposure import Exposure, Layer, no_progress
+from ..tasks import HERE, Work
+from .camera import refined
+from .denoise import denoiser_available, require_denoiser
+from .exposure import Exposure, no_progress
 from .scenes import SCENES, Material, Scene
 from .studio import studio
 from .variant import Device, compiles, load_mitsuba, register
@@ -30,16 +31,12 @@ from .variant import Device, compiles, load_mitsuba, register
 BACKGROUND = 0.03
 """Radiance behind the objects of a scene without a ground."""
 BACKDROP_SPP = 64, 256
-"""At least so many samples for the backdrop, with a denoiser and without."""
+"""At least so many samples a pixel of the ground, with a denoiser and without."""
 LARGEST_SIZE = 8192
 LARGEST_SPP = 65536
 
-QUALITY = {
-    "preview": {"spp": 16, "denoise": True},
-    "normal": {"spp": 64, "denoise": False},
-    "final": {"spp": 256, "denoise": False},
-}
-"""Options of a `Renderer` by the name of a quality."""
+QUALITY = {"preview": 16, "normal": 64, "final": 256}
+"""Samples per pixel by the name of a quality."""
 
 
 class Renderer:
@@ -65,6 +62,8 @@ class Renderer:
         Take the noise out of each picture. A denoised picture of a mix is not quite the mix of the denoised pictures.
     device : {"auto", "cpu", "gpu"}
         Where to render; ``auto`` is an NVIDIA GPU where there is one that works. All of a program runs on one.
+    work : Work
+        Its cache keeps what is behind the objects.
 
     Raises
     ------
@@ -92,6 +91,7 @@ class Renderer:
         bounces: int | None = None,
         denoise: bool = False,
         device: Device = "auto",
+        work: Work = HERE,
     ) -> None:
         self.scene = _scene(scene)
         self.size = size
@@ -109,6 +109,7 @@ class Renderer:
         if denoise:
             require_denoiser()
         self._denoise = denoise
+        self._work = work
         from .stage import Stage
 
         env, mesh = (None if path is None else Path(path) for path in (env, mesh))
@@ -138,39 +139,40 @@ class Renderer:
         with the passes done and their number: a large picture takes several.
         """
         materials = self._materials(brdf)
-        exposure = Exposure(self.spp, self.seed, guides=self._denoise, progress=progress)
+        exposure = Exposure(self.spp, self.seed, denoise=self._denoise, progress=progress)
         if self.bounces > 1:
-            layer = _over_background(self._stage.whole(materials, exposure, bounces=self.bounces))
-        else:
-            layer = self._stage.objects(materials, exposure) + self._backdrop
-        return denoised(layer) if self._denoise else layer.radiance
+            layer = self._stage.whole(materials, exposure, bounces=self.bounces)
+            return layer.over(_background(self.size))
+        return self._stage.objects(materials, exposure).over(self.backdrop)
 
     def fingerprint(self) -> str:
         """Letters that change when anything but the material changes the picture: 32 hexadecimal digits."""
-        digest = sha256(
-            f"2 {self.scene} {self.size} {self.spp} {self.seed} {self.bounces} {self._denoise} {self.exact}".encode()
+        return self._fingerprint(self.spp, self.seed, self.bounces, self._denoise)
+
+    @cached_property
+    def backdrop(self) -> np.ndarray:
+        """What is behind the objects, as if seen through them: radiance, float32, shape (height, width, 3)."""
+        if not self.scene.ground:
+            return _background(self.size)
+        denoise = denoiser_available()
+        exposure = Exposure(max(self.spp, BACKDROP_SPP[not denoise]), seed=0, denoise=denoise)
+        kept = self._work.cached(
+            f"ground-{self._fingerprint(exposure.spp, denoise)}",
+            lambda: {"radiance": self._ground(exposure)},
         )
+        return refined(kept["radiance"], self.size)
+
+    def _ground(self, exposure: Exposure) -> np.ndarray:
+        layer = self._stage.ground(exposure)
+        return layer.over(_background((layer.window.width, layer.window.height)))
+
+    def _fingerprint(self, *sampling: int) -> str:
+        """Of the scene, and of how it is sampled."""
+        digest = sha256(f"3 {self.scene} {self.size} {self.exact} {sampling}".encode())
         for path in self._files:
             digest.update(b"none" if path is None else path.read_bytes())
         digest.update(studio(16).tobytes())
         return digest.hexdigest()[:32]
-
-    @property
-    def backdrop(self) -> np.ndarray:
-        """What is behind the objects, black where they cover it, float32, shape (height, width, 3)."""
-        return self._backdrop.radiance
-
-    @cached_property
-    def _backdrop(self) -> Layer:
-        can_denoise = denoiser_available()
-        least = BACKDROP_SPP[not can_denoise] if self.scene.ground else 1
-        exposure = Exposure(max(self.spp, least), self.seed, guides=can_denoise)
-        layer = _over_background(self._stage.backdrop(exposure))
-        if can_denoise and self.scene.ground:
-            layer = layer._replace(radiance=denoised(layer))
-        # The objects, black here, bring their own guides.
-        seen = layer.albedo > 0
-        return layer._replace(normal=layer.normal * seen)
 
     def _materials(self, brdf: Material | Sequence[Material]) -> list[Material]:
         materials = [brdf] if isinstance(brdf, TabularBrdf | Mapping) else list(brdf)
@@ -185,8 +187,8 @@ class Renderer:
         return materials
 
 
-def _over_background(layer: Layer) -> Layer:
-    return layer._replace(radiance=layer.radiance + BACKGROUND * (1 - layer.alpha))
+def _background(size: tuple[int, int]) -> np.ndarray:
+    return np.full((size[1], size[0], 3), BACKGROUND, np.float32)
 
 
 def _scene(scene: str | Scene) -> Scene:

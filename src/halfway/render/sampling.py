@@ -13,9 +13,10 @@ cell centres in theta_h: between them a trilinear table has no structure that bi
 angles one of the neighbours is chosen at random, in proportion, and the density is the blend of both.
 
 A cell of the density is found by its cumulative sums (rows by one coordinate of the sample, columns by the other, so stratified
-samples stay stratified), a point in it by the closed form of a bilinear density.
+samples stay stratified), a point in it by the closed form of a bilinear density. The first coordinate chooses the lobe before that.
 """
 
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import drjit as dr
@@ -23,11 +24,12 @@ import mitsuba as mi
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..halfdiff import reflect
+from ..halfdiff import Grid, reflect
 
 N_VIEWS = 24
 """View angles, evenly spaced from 0 to the last, `STEEPEST_VIEW`."""
 STEEPEST_VIEW = np.radians(89.0)
+VIEWS = np.linspace(0, STEEPEST_VIEW, N_VIEWS)
 N_AZIMUTHS = 16
 """Cells in phi over half a turn."""
 DEFENCE = 0.02
@@ -37,7 +39,7 @@ FLOOR_QUANTILE = 0.25
 
 
 class HalfVectorSampling:
-    """The density of one table, on the device; made of a BSDF with a ``grid`` and ``values(wi, wo, active)``.
+    """The density of one table, on the device, for tables of one grid; finished when `follow` has seen a table.
 
     Attributes
     ----------
@@ -45,28 +47,33 @@ class HalfVectorSampling:
         Mean reflectance: the share of evenly diffuse light that leaves the surface.
     """
 
-    def __init__(self, bsdf: Any) -> None:
-        self._axis = next(axis for axis in bsdf.grid.axes if axis.angle == "theta_h")
-        views = np.linspace(0, STEEPEST_VIEW, N_VIEWS)
+    def __init__(self, grid: Grid) -> None:
+        self._axis = next(axis for axis in grid.axes if axis.angle == "theta_h")
         theta_h = np.concatenate([[0], self._axis.centres(), [self._axis.stop]])
         azimuths = np.linspace(0, np.pi, N_AZIMUTHS + 1)
-        drops = 2 * np.sin(theta_h / 2) ** 2
-        f, jacobian = _tabulate(bsdf, views, theta_h, azimuths)
-        measure = jacobian * np.outer(_trapezoid(drops), _trapezoid(azimuths)) / 2
+        self._steps = np.diff(2 * np.sin(theta_h / 2) ** 2)
+        self._drops = buffer(2 * np.sin(theta_h / 2) ** 2)
+        self._n_rows = len(self._steps)
+        wi, wo, self._jacobian = _pairs(theta_h, azimuths)
+        self._wi, self._wo = (mi.Vector3f(*map(buffer, v)) for v in (wi, wo))
+        self._measure = (
+            self._jacobian * np.outer(_trapezoid(self._steps), _trapezoid(np.diff(azimuths))) / 2
+        )
 
-        grey = f.mean(axis=0)
-        floor = np.array([_quantile(*each) for each in zip(grey, measure, strict=True)])
+    def follow(self, values: Callable[[Any, Any, Any], Any]) -> None:
+        """Take the density of a table, given its f_r of pairs of directions (light, viewer, mask)."""
+        f = np.array(values(self._wi, self._wo, True)).reshape(3, *self._jacobian.shape)
+        grey = f.mean(axis=0) * (self._jacobian > 0)
+        floor = _quantiles(grey, self._measure)
         rest = np.maximum(grey - floor[:, None, None, None], 0)
-        density, totals = _normalised((rest * jacobian).mean(axis=1), drops)
+        density, totals = _normalised((rest * self._jacobian).mean(axis=1), self._steps)
         self._cells = buffer(density.cells)
         self._rows = buffer(density.rows)
         self._columns = buffer(density.columns)
-        self._drops = buffer(drops)
-        self._n_rows = len(drops) - 1
         self._shares = buffer(_shares(np.pi * floor, totals))
 
-        albedo = np.einsum("cksij,ksij->kc", f, 2 * measure)
-        weight = np.sin(2 * views)
+        albedo = np.einsum("cksij,ksij->kc", f, 2 * self._measure)
+        weight = np.sin(2 * VIEWS)
         self.reflectance = mi.Color3f(*map(buffer, weight @ albedo / weight.sum()))
 
     def pdf(self, wi: Any, wo: Any, active: Any) -> Any:
@@ -88,15 +95,20 @@ class HalfVectorSampling:
         return share * wi.z / np.pi + (1 - share) * q / (2 * length)
 
     def sample(self, wo: Any, sample1: Any, sample2: Any, active: Any) -> Any:
-        """A direction to the light for the view ``wo``; it may fall below the horizon."""
+        """A direction to the light for the view ``wo``; it may fall below the horizon.
+
+        ``sample2`` chooses the lobe too, and each lobe gets a stretch of it: strata of the sampler stay strata.
+        """
         view, fraction = self._view(wo)
         share = self._share(view, fraction, active)
+        is_diffuse = sample2.x < share
+        x = dr.select(is_diffuse, sample2.x / share, (sample2.x - share) / (1 - share))
+        sample2 = mi.Point2f(dr.minimum(x, dr.one_minus_epsilon(mi.Float)), sample2.y)
         diffuse = mi.warp.square_to_cosine_hemisphere(sample2)
-        choice = (sample1 - share) / dr.maximum(1 - share, 1e-6)
-        view = dr.select(choice < fraction, view + 1, view)
+        view = dr.select(sample1 < fraction, view + 1, view)
         h = self._half_vector(wo, view, sample2, active)
         glossy = dr.normalize(2 * dr.dot(wo, h) * h - wo)
-        return dr.select(sample1 < share, diffuse, glossy)
+        return dr.select(is_diffuse, diffuse, glossy)
 
     def _half_vector(self, wo: Any, view: Any, sample: Any, active: Any) -> Any:
         row, u = _search(self._rows, view * (self._n_rows + 1), self._n_rows, sample.x, active)
@@ -153,9 +165,12 @@ class HalfVectorSampling:
 def buffer(values: ArrayLike) -> Any:
     """A Dr.Jit float array of these values.
 
-    Dr.Jit maps numpy's memory as it lies, and compiles anew for another alignment: so it lies at a multiple of 64 bytes.
+    On the CPU Dr.Jit maps numpy's memory as it lies, and compiles anew for another alignment: so it lies at a multiple of
+    64 bytes.
     """
     flat = np.ravel(values)
+    if dr.backend_v(mi.Float) == dr.JitBackend.CUDA:
+        return mi.Float(np.asarray(flat, np.float32))
     spare = np.empty(flat.size + 16, np.float32)
     start = -spare.ctypes.data % 64 // 4
     aligned = spare[start : start + flat.size]
@@ -171,40 +186,43 @@ class _Density(NamedTuple):
     columns: np.ndarray  # (view, row, column + 1): cumulative share of the cells of a row
 
 
-def _tabulate(
-    bsdf: Any, views: np.ndarray, theta_h: np.ndarray, azimuths: np.ndarray
-) -> tuple[np.ndarray, np.ndarray]:
-    """f_r, shape (3, view, side, row node, column node), and cos(theta_i) 4 (wo . h) without the first axis."""
-    shape = (len(views), 2, len(theta_h), len(azimuths))
+def _pairs(theta_h: np.ndarray, azimuths: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Lights and viewers, shape (3, n), of the nodes; and cos(theta_i) 4 (wo . h), shape (view, side, row node, column node).
+
+    The last is 0 where a pair is not above the horizon.
+    """
+    shape = (N_VIEWS, 2, len(theta_h), len(azimuths))
     sides = np.array([1.0, -1.0])
-    v, s, t, p = (a.ravel() for a in np.meshgrid(views, sides, theta_h, azimuths, indexing="ij"))
+    v, s, t, p = (a.ravel() for a in np.meshgrid(VIEWS, sides, theta_h, azimuths, indexing="ij"))
     h = np.stack([np.sin(t) * np.cos(p), s * np.sin(t) * np.sin(p), np.cos(t)])
     wo = np.stack([np.sin(v), 0 * v, np.cos(v)])
     cos_d = (h * wo).sum(axis=0)
     wi = reflect(wo.T, h.T, cos_d).T
     lit = (cos_d > 0) & (wi[2] > 0)
-    f = bsdf.values(mi.Vector3f(*map(buffer, wi)), mi.Vector3f(*map(buffer, wo)), True)
-    f = np.where(lit, np.array(f), 0).astype(float).reshape(3, *shape)
-    return f, np.where(lit, 4 * cos_d * wi[2], 0).reshape(shape)
+    return wi, wo, np.where(lit, 4 * cos_d * wi[2], 0).reshape(shape)
 
 
-def _trapezoid(nodes: np.ndarray) -> np.ndarray:
-    """Weights of the trapezoidal rule."""
-    steps = np.diff(nodes, prepend=nodes[0], append=nodes[-1])
-    return (steps[:-1] + steps[1:]) / 2
+def _trapezoid(steps: np.ndarray) -> np.ndarray:
+    """Weights of the trapezoidal rule on nodes that are so far apart."""
+    return (np.append(steps, 0) + np.append(0, steps)) / 2
 
 
-def _quantile(values: np.ndarray, weights: np.ndarray) -> float:
-    """The value that `FLOOR_QUANTILE` of the weight stays below."""
-    order = np.argsort(values, axis=None)
-    below = np.cumsum(weights.ravel()[order])
-    return float(values.ravel()[order][np.searchsorted(below, FLOOR_QUANTILE * below[-1])])
+def _quantiles(values: np.ndarray, weights: np.ndarray) -> np.ndarray:
+    """For each view, the value that `FLOOR_QUANTILE` of the weight stays below.
+
+    Both sides are alike, and azimuths are dense: one side and every second azimuth say enough, in a quarter of the time.
+    """
+    values, weights = (a[:, 0, :, ::2].reshape(N_VIEWS, -1) for a in (values, weights))
+    order = np.argsort(values, axis=-1)
+    below = np.cumsum(np.take_along_axis(weights, order, -1), axis=-1)
+    at = (below < FLOOR_QUANTILE * below[:, -1:]).sum(axis=-1, keepdims=True)
+    return np.take_along_axis(values, np.take_along_axis(order, at, -1), -1)[:, 0]
 
 
-def _normalised(q: np.ndarray, drops: np.ndarray) -> tuple[_Density, np.ndarray]:
+def _normalised(q: np.ndarray, steps: np.ndarray) -> tuple[_Density, np.ndarray]:
     """The density of nodes, shape (view, row node, column node), and its integrals over both sides."""
     corners = np.stack([q[:, :-1, :-1], q[:, 1:, :-1], q[:, :-1, 1:], q[:, 1:, 1:]], axis=-1)
-    mass = corners.mean(axis=-1) * np.diff(drops)[:, None] * (np.pi / N_AZIMUTHS)
+    mass = corners.mean(axis=-1) * steps[:, None] * (np.pi / N_AZIMUTHS)
     totals = 2 * mass.sum(axis=(1, 2))
     scale = 1 / np.maximum(totals, np.finfo(float).tiny)
     density = _Density(

@@ -10,9 +10,11 @@ import mitsuba as mi
 import numpy as np
 
 from .assets import read_mesh
-from .camera import Window, camera_to_world, fov_degrees, window
+from .camera import COARSE, Window, camera_to_world, coarse, fov_degrees, window
+from .denoise import denoised
 from .environment import read_environment
 from .exposure import Exposure, Layer
+from .ground import seen_through
 from .mesh import Mesh, placed, sweep
 from .scenes import Camera, Material, Placed, PointLight, Scene
 from .studio import as_bright_as_the_studio, studio
@@ -40,21 +42,35 @@ class Stage:
     def objects(self, materials: list[Material], exposure: Exposure) -> Layer:
         """The objects under direct light. No light leaves the frame around them, so no more of it is rendered."""
         self._dress(materials)
-        return _photograph(self._dressed(ground=False), _direct(), exposure, self._size)
+        return _photograph(self._dressed(ground=False), _direct(), exposure)
 
     def whole(self, materials: list[Material], exposure: Exposure, *, bounces: int) -> Layer:
         """Objects and ground, with ``bounces`` of light between them."""
         self._dress(materials)
         integrator = {"type": "path", "max_depth": bounces + 1, "hide_emitters": True}
-        return _photograph(
-            self._dressed(ground=self._scene.ground), integrator, exposure, self._size
-        )
+        photographer = mi.load_dict(integrator)
+        return _photograph(self._dressed(ground=self._scene.ground), photographer, exposure)
 
-    def backdrop(self, exposure: Exposure) -> Layer:
-        """The ground under direct light with the shadows of the objects, which are black."""
-        black = mi.load_dict({"type": "diffuse", "reflectance": 0.0})
-        scene = self._load([black] * self._scene.n_materials, ground=self._scene.ground)
-        return _photograph(scene, _direct(), exposure, self._size)
+    def ground(self, exposure: Exposure) -> Layer:
+        """The ground as if seen through the objects, whose shadows it has; coarse where the variant compiles."""
+        black = _both_sides(mi.load_dict({"type": "diffuse", "reflectance": 0.0}))
+        bsdfs = [black] * self._scene.n_materials
+        if not compiles(str(mi.variant())):
+            return self._ground_beside(bsdfs, exposure)
+        size = coarse(self._size)
+        sensor = _sensor(self._scene.camera, size, widened=COARSE * size[0] / self._size[0])
+        scenes = self._load(bsdfs, sensor, ground=True)
+        return _photograph(scenes, seen_through(black), exposure)
+
+    def _ground_beside(self, black: list[Any], exposure: Exposure) -> Layer:
+        """The ground beside black objects: what Mitsuba's own integrators see, which are the fast ones in a scalar variant."""
+        sensor = _sensor(self._scene.camera, self._size)
+        beside, objects = (
+            _photograph(self._load(black, sensor, ground=ground), _direct(), exposure)
+            for ground in (True, False)
+        )
+        # Where they cover a part of a pixel, the rest is as the whole would be.
+        return beside._replace(radiance=beside.radiance / np.maximum(1 - objects.alpha, 1 / 64))
 
     def _dress(self, materials: list[Material]) -> None:
         if self._wardrobe.change(materials):
@@ -62,13 +78,13 @@ class Stage:
 
     def _dressed(self, *, ground: bool) -> list[Any]:
         if ground not in self._scenes:
-            self._scenes[ground] = self._load(self._wardrobe.bsdfs, ground=ground)
+            window = None if ground else self._window()
+            sensor = _sensor(self._scene.camera, self._size, window)
+            self._scenes[ground] = self._load(self._wardrobe.bsdfs, sensor, ground=ground)
         return self._scenes[ground]
 
-    def _load(self, bsdfs: list[Any], *, ground: bool) -> list[Any]:
+    def _load(self, bsdfs: list[Any], sensor: dict[str, Any], *, ground: bool) -> list[Any]:
         """One scene for each light: their pictures add up, and no sample goes to choosing between lights."""
-        window = None if ground else self._window()
-        sensor = _sensor(self._scene.camera, self._size, window)
         description: dict[str, Any] = {"type": "scene", "sensor": sensor}
         for i, (place, mesh) in enumerate(zip(self._scene.objects, self._meshes, strict=True)):
             description[f"object_{i}"] = _shape(place, mesh, bsdfs[place.material])
@@ -85,33 +101,25 @@ class Stage:
         return window(self._scene.camera, self._size, np.concatenate(corners))
 
 
-def _direct() -> dict[str, Any]:
-    return {"type": "direct", "hide_emitters": True}
+def _direct() -> Any:
+    return mi.load_dict({"type": "direct", "hide_emitters": True})
 
 
-def _photograph(
-    scenes: list[Any], integrator: dict[str, Any], exposure: Exposure, size: tuple[int, int]
-) -> Layer:
-    """The layer of scenes that differ in their light, in the frame of ``size``; empty around the sensor's window."""
-    if exposure.guides:
-        aovs = "albedo:albedo,normal:sh_normal"
-        integrator = {"type": "aov", "aovs": aovs, "inner": integrator}
-    photographer = mi.load_dict(integrator)
+def _photograph(scenes: list[Any], photographer: Any, exposure: Exposure) -> Layer:
+    """The layer of scenes that differ in their light, in the window of their sensor."""
     film = scenes[0].sensors()[0].film()
-    (x, y), (width, height) = (tuple(map(int, v)) for v in (film.crop_offset(), film.crop_size()))
-    passes = exposure.passes(width * height)
+    window = Window(*map(int, film.crop_offset()), *map(int, film.crop_size()))
+    passes = exposure.passes(window.width * window.height)
     takes = [(seed, scene) for seed in passes.seeds for scene in scenes]
-    total = np.zeros((height, width, 10 if exposure.guides else 4), np.float32)
+    total = np.zeros((window.height, window.width, 4), np.float32)
     for done, (seed, scene) in enumerate(takes, start=1):
         image = mi.render(scene, integrator=photographer, spp=passes.spp, seed=mi.UInt32(seed))
         total += np.array(image)
         exposure.progress(done, len(takes))
     total /= len(passes.seeds)
-    # Each light's picture has brought the same coverage and guides.
-    total[..., 3:] /= len(scenes)
-    frame = np.zeros((size[1], size[0], 10), np.float32)
-    frame[y : y + height, x : x + width, : total.shape[2]] = total
-    return Layer(frame[..., :3], frame[..., 3:4], frame[..., 4:7], frame[..., 7:10])
+    # Each light's picture has brought the same coverage.
+    radiance, alpha = total[..., :3], total[..., 3:] / len(scenes)
+    return Layer(window, denoised(radiance) if exposure.denoise else radiance, alpha)
 
 
 def _meshes(scene: Scene, mesh: Path | None) -> list[Mesh | None]:
@@ -159,7 +167,7 @@ def _both_sides(bsdf: Any) -> Any:
 
 
 def _lights(scene: Scene, env: Path | None) -> list[dict[str, Any]]:
-    if scene.points:
+    if scene.points and env is None:
         return [_point(light) for light in scene.points]
     bitmap = mi.Bitmap(studio() if env is None else as_bright_as_the_studio(read_environment(env)))
     T = mi.ScalarTransform4f
@@ -182,7 +190,9 @@ def _box(place: Placed) -> np.ndarray:
     return np.array(place.at) + signs * place.height / 2
 
 
-def _sensor(camera: Camera, size: tuple[int, int], window: Window | None) -> dict[str, Any]:
+def _sensor(
+    camera: Camera, size: tuple[int, int], window: Window | None = None, *, widened: float = 1.0
+) -> dict[str, Any]:
     film: dict[str, Any] = {
         "type": "hdrfilm",
         "width": size[0],
@@ -201,7 +211,7 @@ def _sensor(camera: Camera, size: tuple[int, int], window: Window | None) -> dic
         }
     return {
         "type": "perspective",
-        "fov": fov_degrees(camera, size),
+        "fov": fov_degrees(camera, size, widened),
         "fov_axis": "x",
         "to_world": mi.ScalarTransform4f(camera_to_world(camera)),
         "sampler": {"type": "multijitter"},

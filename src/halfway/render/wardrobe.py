@@ -39,7 +39,6 @@ class Tables(Wardrobe):
 
     def change(self, materials: list[Material]) -> bool:
         from . import bsdf
-        from .sampling import buffer
 
         tables = [material for material in materials if isinstance(material, TabularBrdf)]
         grids = [table.grid for table in tables] if len(tables) == len(materials) else []
@@ -54,7 +53,7 @@ class Tables(Wardrobe):
             return True
         for worn, table in zip(self.bsdfs, tables, strict=True):
             parameters = mi.traverse(worn)
-            parameters["table"] = buffer(bsdf.pack(table))
+            parameters["table"] = bsdf.pack(table)
             parameters.update()
         return False
 
