@@ -66,7 +66,7 @@ def test_the_albedo_under_the_pointer_is_that_of_the_mixed_table(
     explorer.open("#space=linear&pace=uniform&stops=cherry-235,gold-paint&t=0.25&light=points")
     explorer.wait_for_picture(1)
     angle, *shown = numbers_at(explorer, "albedo", 0.6, 0.5)
-    recipe = Recipe("browser", ("cherry-235", "gold-paint"), np.array([[0.75, 0.25]] * 3))
+    recipe = Recipe.of("browser", {"cherry-235": 0.75, "gold-paint": 0.25})
     theta_i = np.radians(float(angle.removeprefix("θi ").removesuffix("°")))
     expected = directional_albedo(mix(library, recipe), theta_i)
     # Half floats and three digits; the page takes fewer nodes in azimuth.

@@ -6,8 +6,18 @@ import { join, type Route, reversed } from "./route";
 import { comparedSpace, LINKED, type State } from "./state";
 import { comingUp, shownNames } from "./wanted";
 
+export function follow(context: Context): void {
+  fetchRoutes(context);
+  fetchOtherRoutes(context);
+  fetchAtPoint(context);
+  fetchSpaces(context);
+  fetchTables(context);
+  keepLink(context);
+  play(context);
+}
+
 /** The route through the stops. */
-export function fetchRoutes(context: Context): void {
+function fetchRoutes(context: Context): void {
   latest(context, ["space", "pace", "stops"], async (state, running) => {
     const route = await fetchRoute(context, state.space, state, running);
     if (!running.aborted) context.actions.setRoute(route);
@@ -30,7 +40,7 @@ async function fetchRoute(
 }
 
 /** The way of the compared space through the same stops. */
-export function fetchOtherRoutes(context: Context): void {
+function fetchOtherRoutes(context: Context): void {
   const { actions } = context;
   latest(context, ["compare", "pace", "stops"], async (state, running) => {
     const space = comparedSpace(state.compare);
@@ -44,7 +54,7 @@ export function fetchOtherRoutes(context: Context): void {
 }
 
 /** The material at a free point. */
-export function fetchAtPoint(context: Context): void {
+function fetchAtPoint(context: Context): void {
   const { client, actions } = context;
   latest(context, ["point"], async ({ space, point }, running) => {
     if (point !== null) actions.setAtPoint(await client.at(space, point, running));
@@ -52,7 +62,7 @@ export function fetchAtPoint(context: Context): void {
 }
 
 /** The space to look at. */
-export function fetchSpaces(context: Context): void {
+function fetchSpaces(context: Context): void {
   const { client, store } = context;
   latest(context, ["space"], async ({ space }, running) => {
     const view = await client.spaceView(space);
@@ -61,7 +71,7 @@ export function fetchSpaces(context: Context): void {
 }
 
 /** Tables of what is shown and of what comes next; who draws from them hears when one has come. */
-export function fetchTables({ tables, store }: Context): void {
+function fetchTables({ tables, store }: Context): void {
   tables.onChange = (problem) =>
     store.set({ arrived: store.get().arrived + 1, ...(problem !== null && { problem }) });
   store.watch(["recipe", "otherRecipe"], (state) =>
@@ -89,7 +99,7 @@ function latest(
 /** Milliseconds after which the link follows. */
 const UNHURRIED = 150;
 
-export function keepLink({ store, options, signal }: Context): void {
+function keepLink({ store, options, signal }: Context): void {
   let timer: ReturnType<typeof setTimeout> | undefined;
   signal.addEventListener("abort", () => clearTimeout(timer));
   store.watch(LINKED, () => {
@@ -101,7 +111,7 @@ export function keepLink({ store, options, signal }: Context): void {
 const SECONDS_A_ROUTE = 6;
 
 /** There and back, evenly in t. */
-export function play({ store, actions, signal }: Context): void {
+function play({ store, actions, signal }: Context): void {
   store.watch(["playing"], ({ playing, t }) => {
     if (!playing) return;
     let last = performance.now();

@@ -8,15 +8,7 @@ import type { LibrarySummary } from "./api/schema";
 import { type DrawableGrid, isDrawable } from "./brdf/grid";
 import type { Context, Options } from "./context";
 import { el } from "./dom";
-import {
-  fetchAtPoint,
-  fetchOtherRoutes,
-  fetchRoutes,
-  fetchSpaces,
-  fetchTables,
-  keepLink,
-  play,
-} from "./follow";
+import { follow } from "./follow";
 import { listenToKeys } from "./keys";
 import { brdfPanel } from "./panels/brdf/panel";
 import { head } from "./panels/head";
@@ -42,17 +34,13 @@ export interface Mounted {
 /** Build the page in `element`; a library that cannot be shown is said there, and thrown as a `Problem`. */
 export async function mount(element: HTMLElement, client: Client, options: Options = {}): Promise<Mounted> {
   element.classList.add("halfway");
-  element.replaceChildren(el("p.waiting", { role: "status" }, {}, "Reading the library …"));
+  element.replaceChildren(el("p.waiting", { role: "status" }, "Reading the library …"));
   try {
-    const [library, thumbnails, environment] = await Promise.all([
-      client.library(),
-      client.thumbnails(),
-      client.environment(),
-    ]);
-    return show(element, client, options, library, thumbnails, environment);
+    const answers = [client.library(), client.thumbnails(), client.environment()] as const;
+    return show(element, client, options, await Promise.all(answers));
   } catch (error) {
     const text = error instanceof Error ? error.message : String(error);
-    element.replaceChildren(el("p.waiting.failed", { role: "alert" }, {}, text));
+    element.replaceChildren(el("p.waiting.failed", { role: "alert" }, text));
     throw error;
   }
 }
@@ -61,32 +49,25 @@ function show(
   root: HTMLElement,
   client: Client,
   options: Options,
-  library: LibrarySummary,
-  thumbnails: Block,
-  environment: Block,
+  [library, thumbnails, environment]: readonly [LibrarySummary, Block, Block],
 ): Mounted {
   const linked = { ...fromHash(options.fragment ?? "", library), ...options.linked };
   const store = createState(library, linked, options.theme ?? "auto");
   const names = library.materials.map(({ name }) => name);
   const gone = new AbortController();
   const context: Context = {
-    root,
-    client,
-    options,
-    store,
-    names,
+    ...{ root, client, options, store, names, environment, signal: gone.signal },
     actions: new Actions(store),
     thumbnails: new Thumbnails(names, thumbnails),
     tables: new Tables(client, drawable(library)),
-    environment,
-    signal: gone.signal,
   };
   applyTheme(context);
   const side = el("div.side", recipePanel(context), brdfPanel(context));
   root.replaceChildren(
     el("div.layout", head(context), spacePanel(context), materialPanel(context), routePanel(context), side),
   );
-  for (const follow of FOLLOWERS) follow(context);
+  follow(context);
+  listenToKeys(context);
   root.classList.add("ready");
   const unmount = () => {
     gone.abort();
@@ -95,9 +76,6 @@ function show(
   };
   return { store, actions: context.actions, unmount };
 }
-
-// biome-ignore format: it is one list.
-const FOLLOWERS = [fetchRoutes, fetchOtherRoutes, fetchAtPoint, fetchSpaces, fetchTables, keepLink, play, listenToKeys];
 
 /** The grid of a library, if the page can draw it. */
 function drawable({ name, grid }: LibrarySummary): DrawableGrid {

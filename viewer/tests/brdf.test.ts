@@ -6,10 +6,10 @@ import { directionalAlbedo } from "../src/brdf/albedo";
 import { neighbours, toAngle, toPosition } from "../src/brdf/grid";
 import { HALF } from "../src/brdf/half";
 import { type Direction, toHalfDiff } from "../src/brdf/halfdiff";
-import { inversion } from "../src/brdf/inversion";
 import { lobe } from "../src/brdf/lobe";
 import { evaluate, sample, type Table } from "../src/brdf/table";
 import { NODES } from "../src/panels/brdf/albedo";
+import { inversion } from "../src/render/chances";
 import { golden } from "./golden";
 
 const ROUNDING = 1e-9;
@@ -86,10 +86,10 @@ test("half floats have their values", () => {
 });
 
 test("inverting the running sum gives every cell its chance, in order", () => {
-  const mass = [0.1, 0.5, 0, 3, 0.4];
+  const mass = Float64Array.of(0.1, 0.5, 0, 3, 0.4);
   const { upTo, first, chance } = inversion(mass);
   const n = 4000;
-  const found = new Float64Array(mass.length);
+  const drawn = new Float64Array(mass.length);
   let last = 0;
   for (let k = 0; k < n; k++) {
     const u = (k + 0.5) / n;
@@ -97,11 +97,11 @@ test("inverting the running sum gives every cell its chance, in order", () => {
     while (upTo[cell]! <= u) cell++;
     expect(cell).toBeGreaterThanOrEqual(last);
     last = cell;
-    found[cell]! += 1 / n;
+    drawn[cell]! += 1 / n;
   }
   mass.forEach((m, i) => {
     expect(chance[i]).toBeCloseTo(m / 4, 6);
-    expect(Math.abs(found[i]! - m / 4)).toBeLessThanOrEqual(1.01 / n);
+    expect(Math.abs(drawn[i]! - m / 4)).toBeLessThanOrEqual(1.01 / n);
   });
 });
 
@@ -124,8 +124,8 @@ test("the directional albedo is Python's", () => {
     values: [number, number, number][];
   }>("albedo");
   theta_i.forEach((angle, i) => {
-    const found = directionalAlbedo(goldenTable(), angle, n_theta_h, n_phi_h);
-    found.forEach((x, c) => {
+    const albedo = directionalAlbedo(goldenTable(), angle, n_theta_h, n_phi_h);
+    albedo.forEach((x, c) => {
       expect(Math.abs(x / values[i]![c]! - 1)).toBeLessThan(1e-6);
     });
   });

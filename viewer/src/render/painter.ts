@@ -11,8 +11,7 @@ import { type Ingredient, namesIn } from "../recipe";
 import type { View } from "../scene";
 import type { Environment } from "./environment";
 import { type Layer, Layers } from "./layers";
-import { compositePass, environmentPass, pointsPass } from "./passes";
-import { MAX_TERMS, type Pass } from "./shaders";
+import { compositeShader, environmentShader, MAX_TERMS, Pass, pointsShader } from "./shaders";
 import { Stage } from "./stage";
 import { type TableOnCard, type Tables, whiteTable } from "./tables";
 
@@ -20,9 +19,18 @@ import { type TableOnCard, type Tables, whiteTable } from "./tables";
 const TARGET_SAMPLES = [384, 128] as const;
 const LAYER_BYTES = 400e6;
 const MIN_LAYERS = 24;
+/** Samples are added as a running mean: the new one counts `blendAlpha`. */
+const RUNNING_MEAN = {
+  blending: THREE.CustomBlending,
+  blendSrc: THREE.ConstantAlphaFactor,
+  blendDst: THREE.OneMinusConstantAlphaFactor,
+  transparent: true,
+} as const;
 /** What is enough to be timed, in milliseconds; and the part of the picture that is tried first. */
 const TIMED = 8;
 const FIRST_PART = 1 / 64;
+
+const NOTHING: Ingredient = { name: "", weight: [0, 0, 0] };
 
 /** What is to be seen: a recipe, another one to the right of `split`, and how bright. */
 export interface Shown {
@@ -46,7 +54,7 @@ export class Painter {
   private shown: readonly [readonly Ingredient[], readonly Ingredient[]] = [[], []];
   private readonly points: Pass;
   private readonly environment: Pass;
-  private readonly composite: Pass;
+  private readonly composite = new Pass(compositeShader, { blending: THREE.NoBlending });
   /** That of the present light. */
   private pass: Pass;
 
@@ -66,9 +74,14 @@ export class Painter {
     const needed = ["EXT_color_buffer_float", "EXT_float_blend"];
     if (!needed.every((extension) => this.renderer.extensions.has(extension)))
       throw new Error(`This browser cannot draw into float textures (${needed.join(", ")}).`);
-    this.points = pointsPass(this.stage, lights);
-    this.environment = environmentPass(this.stage);
-    this.composite = compositePass();
+    const [uNormal, uPosition] = this.stage.target.textures;
+    const surface = { uNormal, uPosition, uEye: this.stage.camera.position };
+    this.environment = new Pass(environmentShader, RUNNING_MEAN).set(surface);
+    this.points = new Pass(pointsShader, RUNNING_MEAN).set({
+      ...surface,
+      uLights: lights.map(({ at: [x, y, z] }) => new THREE.Vector3(x, y, z)),
+      uIntensities: lights.map(({ intensity }) => intensity),
+    });
     this.pass = this.environment;
   }
 
@@ -182,10 +195,11 @@ export class Painter {
     // All samples may just have started over: the last picture stays until each material has one again. Before the first
     // picture an empty one is drawn all the same, for a card begins with the samples when the canvas is drawn on.
     if (this.layers.samples(namesIn(recipe, other)) === 0) return false;
-    const { uTerms, uOtherTerms } = this.composite.uniforms;
     this.composite.set({
-      uCount: this.fill(uTerms!.value, recipe),
-      uOtherCount: this.fill(uOtherTerms!.value, other),
+      uTerms: this.terms(recipe),
+      uOtherTerms: this.terms(other),
+      uCount: Math.min(recipe.length, MAX_TERMS),
+      uOtherCount: Math.min(other.length, MAX_TERMS),
       uSplit: (other.length ? wanted.split : 1) * this.target!.width,
       uExposure: wanted.exposure,
     });
@@ -193,11 +207,15 @@ export class Painter {
     return recipe.length > 0;
   }
 
-  private fill(terms: readonly THREE.Vector4[], recipe: readonly Ingredient[]): number {
-    recipe.slice(0, MAX_TERMS).forEach(({ name, weight: [r, g, b] }, i) => {
-      terms[i]!.set(r, g, b, this.layers.get(name)!.index);
+  /** Weights and layers, as many as the shader has. */
+  private terms(recipe: readonly Ingredient[]): THREE.Vector4[] {
+    return Array.from({ length: MAX_TERMS }, (_, i) => {
+      const {
+        name,
+        weight: [r, g, b],
+      } = recipe[i] ?? NOTHING;
+      return new THREE.Vector4(r, g, b, this.layers.get(name)?.index ?? 0);
     });
-    return Math.min(recipe.length, MAX_TERMS);
   }
 
   private restart(): void {

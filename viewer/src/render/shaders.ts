@@ -22,8 +22,6 @@ export const MAX_TERMS = 32;
 /** 2^32 / g and 2^32 / g^2 with g^3 = g + 1, for the light, and again for the half vector. */
 const STEPS = [0xc13fa9a9, 0x91e10da5, 0xc13fa9a9, 0x91e10da5] as const;
 
-export type Uniforms = Record<string, THREE.IUniform>;
-
 const HEAD = "precision highp float;\nprecision highp int;\n";
 const surface = halfdiff + brdf + shadow.replace("@BITS@", String(OCCLUDER_BITS));
 
@@ -48,20 +46,19 @@ export function meshMaterial(): THREE.RawShaderMaterial {
   });
 }
 
-/** A fragment shader over the whole picture. */
+/** A fragment shader over the whole picture; what its uniforms are is in its text. */
 export class Pass {
-  readonly uniforms: Uniforms;
   readonly material: THREE.RawShaderMaterial;
   private readonly scene = new THREE.Scene();
   private readonly camera = new THREE.Camera();
 
-  constructor(fragmentShader: string, uniforms: Uniforms, options: THREE.ShaderMaterialParameters = {}) {
-    this.uniforms = uniforms;
+  constructor(fragmentShader: string, options: THREE.ShaderMaterialParameters = {}) {
+    const uniforms = [...fragmentShader.matchAll(/^uniform .*?(\w+)(\[\d+\])?;/gm)].map(([, name]) => name!);
     this.material = new THREE.RawShaderMaterial({
       glslVersion: THREE.GLSL3,
       vertexShader: HEAD + screen,
       fragmentShader,
-      uniforms,
+      uniforms: Object.fromEntries(uniforms.map((name) => [name, { value: null }])),
       depthTest: false,
       depthWrite: false,
       ...options,
@@ -76,8 +73,9 @@ export class Pass {
     this.scene.add(mesh);
   }
 
-  set(values: Readonly<Record<string, unknown>>): void {
-    for (const [name, value] of Object.entries(values)) this.uniforms[name]!.value = value;
+  set(values: Readonly<Record<string, unknown>>): this {
+    for (const [name, value] of Object.entries(values)) this.material.uniforms[name]!.value = value;
+    return this;
   }
 
   /** Beside the page's work, where the browser can. */

@@ -52,12 +52,13 @@ export class Stage {
   });
   private shape: Shape = "sphere";
   private readonly size = new THREE.Vector2(1, 1);
+  private readonly toWorld = new THREE.Matrix4();
   private readonly standing = new Map<Shape, Standing>();
-  readonly sphere = new Pass(sphereShader, {
-    uToWorld: { value: new THREE.Matrix4() },
-    uEye: { value: this.camera.position },
-    uSize: { value: this.size },
-    uSphere: { value: new THREE.Vector4(0, 0, 1, 1) },
+  readonly sphere = new Pass(sphereShader).set({
+    uToWorld: this.toWorld,
+    uEye: this.camera.position,
+    uSize: this.size,
+    uSphere: new THREE.Vector4(0, 0, 1, 1),
   });
 
   resize(width: number, height: number): void {
@@ -104,8 +105,7 @@ export class Stage {
     this.camera.setViewOffset(width, height, x - 0.5, y - 0.5, width, height);
     this.camera.updateMatrixWorld();
     if (this.shape === "sphere") {
-      const toWorld = this.sphere.uniforms.uToWorld!.value as THREE.Matrix4;
-      toWorld.multiplyMatrices(this.camera.matrixWorld, this.camera.projectionMatrixInverse);
+      this.toWorld.multiplyMatrices(this.camera.matrixWorld, this.camera.projectionMatrixInverse);
       this.sphere.draw(renderer, this.target);
     } else {
       renderer.setRenderTarget(this.target);

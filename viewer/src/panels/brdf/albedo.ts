@@ -43,15 +43,9 @@ export function albedo(): Plot {
   };
 }
 
-interface Frame {
-  readonly x0: number;
-  readonly y0: number;
-  readonly width: number;
-  readonly height: number;
-  readonly high: number;
-}
+type Frame = ReturnType<typeof toFrame>;
 
-function toFrame({ width, height }: Size, mixed: Float64Array): Frame {
+function toFrame({ width, height }: Size, mixed: Float64Array) {
   const high = Math.max(1, 1.05 * Math.max(...mixed));
   return { x0: 46, y0: height - 36, width: width - 58, height: height - 44, high };
 }

@@ -50,15 +50,9 @@ export function lobes(thetaIDegrees: number, scale: Scale): Plot {
   };
 }
 
-interface Frame {
-  readonly x0: number;
-  readonly y0: number;
-  readonly reach: number;
-  readonly low: number;
-  readonly high: number;
-}
+type Frame = ReturnType<typeof toFrame>;
 
-function toFrame({ width, height }: Size, mixed: Float64Array): Frame {
+function toFrame({ width, height }: Size, mixed: Float64Array) {
   const high = Math.max(...mixed, 1e-6);
   const least = Math.min(...mixed.filter((value) => value > high / 10 ** DECADES), high / 10);
   const low = 10 ** Math.floor(Math.log10(least));

@@ -97,13 +97,9 @@ function picture(nH: number, nD: number, mixed: Float64Array, scale: Scale, rang
   return cells;
 }
 
-interface Box {
-  readonly x: number;
-  readonly y: number;
-  readonly side: number;
-}
+type Box = ReturnType<typeof toBox>;
 
-function toBox({ width, height }: Size): Box {
+function toBox({ width, height }: Size) {
   const side = Math.max(20, Math.min(height - 36, width - 96));
   return { x: (width - side - 12) / 2, y: Math.max(6, (height - side - 30) / 2), side };
 }
