@@ -1,6 +1,6 @@
 """The figures of the page on analytic fits: every material of the given libraries, by every model.
 
-``python docs/analytic_fits.py [LIB...]``; without a LIB the built-in one. ``--all`` prints each material too.
+``python docs/analytic_fits.py [LIB...] [MODEL...]``; without a LIB the built-in one. ``--all`` prints each material too.
 """
 
 import sys
@@ -18,13 +18,14 @@ N_WORST = 4
 def main(arguments: Sequence[str]) -> None:
     """Fit, and print tables in Markdown."""
     everything = "--all" in arguments
-    for where in [a for a in arguments if a != "--all"] or ["builtin:merl-abc"]:
+    models = [a for a in arguments if a in MODELS] or [*MODELS]
+    for where in [a for a in arguments if a not in ("--all", *MODELS)] or ["builtin:merl-abc"]:
         library = open_library(where)
-        fits: dict[str, list[Fit]] = {model: [] for model in MODELS}
-        seconds: dict[str, list[float]] = {model: [] for model in MODELS}
+        fits: dict[str, list[Fit]] = {model: [] for model in models}
+        seconds: dict[str, list[float]] = {model: [] for model in models}
         for name in library.names:
             brdf = library.brdf(name)
-            for model in MODELS:
+            for model in models:
                 start = time.process_time()
                 fits[model].append(fit(brdf, model, name=name))
                 seconds[model].append(time.process_time() - start)
@@ -33,8 +34,10 @@ def main(arguments: Sequence[str]) -> None:
             "| model | dB: median | tenth lowest | lowest | albedo: median | highest | s | lowest four, dB |"
         )
         print("|---|---|---|---|---|---|---|---|")
-        for model in MODELS:
+        for model in models:
             print_line(model, fits[model], seconds[model])
+        for model in models:
+            print_readings(fits[model])
         if everything:
             print_all(fits)
 
@@ -49,6 +52,15 @@ def print_line(model: str, fits: Sequence[Fit], seconds: Sequence[float]) -> Non
         f"| {model} | {np.median(psnr):.1f} | {psnr[min(9, len(psnr) - 1)]:.1f} | {psnr[0]:.1f} | "
         f"{np.median(albedo):.3f} | {albedo.max():.3f} | {np.median(seconds):.2f} | {worst} |"
     )
+
+
+def print_readings(fits: Sequence[Fit]) -> None:
+    """What other programs make of the fits: the median and the tenth lowest."""
+    for name in fits[0].readings:
+        psnr = np.sort([found.readings[name].psnr for found in fits])
+        print(
+            f"\n{name}: {np.median(psnr):.1f} dB in the median, {psnr[min(9, len(psnr) - 1)]:.1f} the tenth lowest"
+        )
 
 
 def print_all(fits: dict[str, list[Fit]]) -> None:

@@ -158,6 +158,37 @@ def test_what_no_model_has_is_fitted_badly_and_said_so(model, least):
     found = fit(Retroreflective(), model, name="tape")
     assert least < found.picture.psnr < 30
     assert f"{found.picture.psnr:.1f} dB" in found.summary
+    assert found.summary.endswith("a poor fit: look at it before you use it")
+    assert found.to_json()["error"]["poor"] is True
+
+
+@given(directions(85.0), directions(85.0), st.integers(0, 2**32 - 1))
+def test_what_other_programs_make_of_gltf(wi, wo, seed):
+    """Without extensions the index is 1.5 and there is no coat; in Blender the edge is white, so what specular takes from f0 stays there."""
+    low, high = Gltf.bounds()
+    model = Gltf.from_vector(low + (high - low) * np.random.default_rng(seed).uniform(0.1, 1, 12))
+    core, blender = (model.readings[name] for name in ("without extensions", "in Blender"))
+    assert_allclose(core.eval(wi, wo), gltf_by_the_book(Gltf(model.base_color, model.metallic, model.roughness, clearcoat_roughness=0.1), wi, wo))  # fmt: skip
+    plain = replace(model, specular=1.0)
+    assert_allclose(plain.readings["in Blender"].eval(wi, wo), plain.eval(wi, wo))
+    # An index whose f0 is as much lower says the same to Blender.
+    root = np.sqrt(model.specular) * (model.ior - 1) / (model.ior + 1)
+    lower = replace(plain, ior=(1 + root) / (1 - root))
+    assert_allclose(blender.eval(wi, wo), lower.eval(wi, wo), rtol=1e-9)
+
+
+def test_of_fits_about_as_good_the_one_that_other_programs_read_is_found():
+    """Chrome looks as well as a metal as it does as a dielectric of index 3, which is black without its index."""
+    chrome = fit(ABC["chrome"], "gltf", name="chrome")
+    assert chrome.model.metallic > 0.9
+    assert chrome.model.specular == 1
+    assert min(read.psnr for read in chrome.readings.values()) > 40
+    assert (
+        f"without extensions {chrome.readings['without extensions'].psnr:.1f} dB" in chrome.summary
+    )
+    assert not chrome.is_poor
+    # Here only the dielectric is good: the others are three decibels off.
+    assert fit(ABC["gold-paint"], "gltf").picture.psnr > 39
 
 
 @pytest.mark.parametrize("model", MODELS)

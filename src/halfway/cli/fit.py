@@ -80,6 +80,7 @@ def fit(
     else:
         show(*(f"{fit.name}, {fit.summary}" for fit in fits))
     if output:
-        say(f"{output}: {fits[0].name}")
+        lights = ". In Blender, import it with Lighting Mode: Unitless" if kind == "gltf" else ""
+        say(f"{output}: {fits[0].name}{lights}")
     if picture:
         say(f"{picture}: the table, the fit, the difference; below, in Mitsuba")

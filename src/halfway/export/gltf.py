@@ -4,7 +4,8 @@
     .glb     the same in a binary container:  "glTF", version 2, length;  then chunks of (length, type, data), padded to 4 bytes
 
 Nothing lies beside the file. An extension is used where its parameters do something: KHR_materials_ior, KHR_materials_specular,
-KHR_materials_clearcoat for the material; KHR_lights_punctual for the lights, whose unit is the lux.
+KHR_materials_clearcoat for the material; KHR_lights_punctual for the lights, whose unit is the lux. What a viewer without an exposure
+shows as well lit is some lux; Blender takes that for moonlight (divided by 683 lm/W), unless it imports "Unitless".
 
 Source: Khronos Group, glTF 2.0 specification, sections 3 (concepts), 4 (GLB), 5 (properties), and the extensions named above.
 """

@@ -2,16 +2,19 @@
 
 Bounded least squares (a trust region, reflective: M. A. Branch, T. F. Coleman, Y. Li, SIAM Journal on Scientific Computing
 21(1), 1999) in the metric of `halfway.fit.metric`, from the best few of eight starts: four widths of the main lobe, as a
-dielectric and as a metal. Two terms are added to the metric: what a model reflects above 1, times ten, and the distance of the
-parameters from where they do nothing, times .003, so that a parameter that the material does not need stays out.
+dielectric and as a metal. Terms are added to the metric: what a model reflects above 1, times ten; the distance of the parameters from
+where they do nothing, times .003, so that a parameter that the material does not need stays out; and the same metric for each of the
+model's readings, as a weak voice: of models that are about as good, the one that other programs read best is found.
 """
 
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass, field
 from typing import Any
 
 import numpy as np
 from threadpoolctl import threadpool_limits
 
+from .._types import Values
 from ..brdf import Brdf, Quality, directional_albedo, lit_sphere, quality
 from ..errors import HalfwayError
 from .gltf import Gltf
@@ -30,13 +33,19 @@ DEFAULT_MODEL = "openpbr"
 
 ALBEDO_DEGREES = (5.0, 20.0, 40.0, 60.0, 75.0)
 """Where albedos are compared; other angles than those of the metric."""
-N_SEARCHES = 2
+ABOUT_EQUAL_DB = 1.0
+INDISTINGUISHABLE_DB = 40.0
+"""Above, nobody sees a difference, so it settles nothing."""
 MOST_EVALUATIONS = 40
 TOLERANCE = 1e-3
 DECIMALS = 5
 """Of the parameters: files hold them as they are, and what is nearly nothing is nothing."""
 STAY_NEUTRAL = 3e-3
 STAY_PASSIVE = 10.0
+READ_WELL = 0.1
+"""The factor of a reading's terms: their squares count a hundredth."""
+POOR_DB, POOR_L1 = 30.0, 0.3
+"""A fit below the one or above the other is called poor."""
 
 
 @dataclass(frozen=True)
@@ -52,6 +61,13 @@ class Fit:
     """Of the lit sphere, against the material's."""
     albedo_error: float
     """The largest difference of directional albedos, over channels and `ALBEDO_DEGREES`."""
+    readings: Mapping[str, Quality] = field(default_factory=dict[str, Quality])
+    """Pictures of what other programs make of the model, by which: `AnalyticModel.readings`."""
+
+    @property
+    def is_poor(self) -> bool:
+        """Whether the model cannot look like the material."""
+        return self.picture.psnr < POOR_DB or self.picture.relative_l1 > POOR_L1
 
     @property
     def model_name(self) -> str:
@@ -61,9 +77,12 @@ class Fit:
     @property
     def summary(self) -> str:
         """What the model is and how far off, in words."""
+        readings = "".join(f"; {name} {read.psnr:.1f} dB" for name, read in self.readings.items())
+        caution = "; a poor fit: look at it before you use it" if self.is_poor else ""
         return (
             f"as {self.model.formula}: {self.picture.psnr:.1f} dB on a lit sphere, "
             f"off by {self.picture.relative_l1:.1%} in the mean, albedo off by at most {self.albedo_error:.3f}"
+            f"{readings}{caution}"
         )
 
     def to_json(self) -> dict[str, Any]:
@@ -75,9 +94,10 @@ class Fit:
             "parameters": self.model.parameters(),
             "error": {
                 "distance": self.distance,
-                "psnr": self.picture.psnr,
-                "relative_l1": self.picture.relative_l1,
+                **asdict(self.picture),
                 "albedo": self.albedo_error,
+                "poor": self.is_poor,
+                "readings": {name: asdict(read) for name, read in self.readings.items()},
             },
         }
 
@@ -102,50 +122,89 @@ def fit(brdf: Brdf, model: str = DEFAULT_MODEL, *, name: str = "") -> Fit:
     """
     if model not in MODELS:
         raise HalfwayError(f"there is no model {model!r}: expected {', '.join(MODELS)}.")
-    target = Target.of(brdf, name)
+    target, truth = Target.of(brdf, name), lit_sphere(brdf)
     with threadpool_limits(1, "blas"):
-        found, distance = _search(MODELS[model], target)
+        found = _chosen(_candidates(MODELS[model], target), truth)
     angles = np.radians(ALBEDO_DEGREES)
     albedo_error = np.abs(directional_albedo(found, angles) - directional_albedo(brdf, angles))
     return Fit(
         name,
         found,
-        distance,
-        quality(lit_sphere(found), lit_sphere(brdf)),
+        float(np.linalg.norm(target.difference(found)[0])),
+        quality(lit_sphere(found), truth),
         float(albedo_error.max()),
+        {read: quality(lit_sphere(other), truth) for read, other in found.readings.items()},
     )
 
 
-def _search(kind: type[AnalyticModel], target: Target) -> tuple[AnalyticModel, float]:
+def _chosen(candidates: Sequence[AnalyticModel], truth: Values) -> AnalyticModel:
+    """Of those that are about as like the material as any, the first that is about as well read as any."""
+    likeness = np.array(
+        [[_likeness(m, truth) for m in (c, *c.readings.values())] for c in candidates]
+    )
+    own, read = likeness[:, 0], likeness.mean(axis=1)
+    good = own > own.max() - ABOUT_EQUAL_DB
+    return candidates[int(np.argmax(good & (read > read[good].max() - ABOUT_EQUAL_DB)))]
+
+
+def _likeness(model: AnalyticModel, truth: Values) -> float:
+    """How far the pictures agree, in dB."""
+    return min(INDISTINGUISHABLE_DB, quality(lit_sphere(model), truth).psnr)
+
+
+def _candidates(kind: type[AnalyticModel], target: Target) -> list[AnalyticModel]:
+    """The best of a search in all parameters; where programs read the model in several ways, all that searches end at."""
+    if not kind.simpler:
+        return _searched(kind, target, kind.held({}))[:1]
+    return [
+        found for held in (*kind.simpler, {}) for found in _searched(kind, target, kind.held(held))
+    ]
+
+
+def _searched(kind: type[AnalyticModel], target: Target, held: Vector) -> list[AnalyticModel]:
+    """What the best few starts lead to, with some parameters held; the best first."""
     from scipy.optimize import least_squares
 
     low, high = kind.bounds()
     neutral, width = kind.neutral(), high - low
+    free = np.isnan(held)
 
-    def residuals(x: Vector) -> Terms:
-        terms, above = target.difference(kind.from_vector(x))
-        return np.concatenate([terms, STAY_PASSIVE * above, STAY_NEUTRAL * (x - neutral) / width])
+    def whole(x: np.ndarray) -> Vector:
+        vector = held.copy()
+        vector[free] = x
+        return vector
+
+    def residuals(x: np.ndarray) -> Terms:
+        vector = whole(x)
+        model = kind.from_vector(vector)
+        terms, above = target.difference(model)
+        read = [READ_WELL * target.difference(other)[0] for other in model.readings.values()]
+        return np.concatenate(
+            [terms, STAY_PASSIVE * above, STAY_NEUTRAL * (vector - neutral) / width, *read]
+        )
 
     inside = low + 1e-3 * width, high - 1e-3 * width
     starts = [
-        np.clip(start.to_vector(), *inside) for start in kind.starts(target.body(), target.albedo())
+        np.clip(start.to_vector(), *inside)[free]
+        for start in kind.starts(target.body(), target.albedo())
     ]
     starts.sort(key=lambda x: float(np.square(residuals(x)).sum()))
     found: list[Any] = [
         least_squares(
             residuals,
             start,
-            bounds=(low, high),
+            bounds=(low[free], high[free]),
             x_scale="jac",
             ftol=TOLERANCE,
             xtol=TOLERANCE,
             max_nfev=MOST_EVALUATIONS,
         )
-        for start in starts[:N_SEARCHES]
+        for start in starts[: kind.n_searches]
     ]
-    x = min(found, key=_cost).x
-    model = kind.from_vector(np.clip(x.round(DECIMALS), low, high))
-    return model, float(np.linalg.norm(target.difference(model)[0]))
+    found.sort(key=_cost)
+    return [
+        kind.from_vector(np.clip(whole(result.x).round(DECIMALS), low, high)) for result in found
+    ]
 
 
 def _cost(result: Any) -> float:

@@ -7,13 +7,16 @@
 
     V D = D(a) G1(cos_i) G1(cos_o) / (4 cos_i cos_o),   a = roughness^2,    S = (1 - cos theta_d)^5,    w = specular
 
+Programs do not agree on it. Many leave the extensions out, and Blender lets ``specular`` scale f0 and not the whole of F. A fit keeps an eye
+on what these make of the material: `Gltf.readings`.
+
 The base is reciprocal. The coat takes its share of what ``wo`` sees, as the extension says; that is not.
 
 Source: Khronos Group, glTF 2.0 specification, appendix B; KHR_materials_ior, KHR_materials_specular,
 KHR_materials_clearcoat, the sections "Implementation".
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
@@ -53,6 +56,12 @@ class Gltf(AnalyticModel):
         "clearcoat_roughness": Range(0.02, 1, 0.1),
     }
 
+    n_searches: ClassVar[int] = 4
+    simpler: ClassVar = (
+        {"metallic": 1.0, "ior": 1.5, "specular": 1.0, "specular_color": 1.0},
+        {"specular": 1.0},
+    )
+
     @classmethod
     def starts(cls, body: Colour, glossy: Colour) -> Sequence["Gltf"]:
         coat = {"clearcoat": 0.1, "clearcoat_roughness": 0.1}
@@ -62,6 +71,13 @@ class Gltf(AnalyticModel):
             for m, colour in ((0.1, body), (0.9, glossy))
         ]
 
+    @property
+    def readings(self) -> Mapping[str, AnalyticModel]:
+        return {
+            "without extensions": Gltf(self.base_color, self.metallic, self.roughness),
+            "in Blender": _InBlender.from_vector(self.to_vector()),
+        }
+
     def at(
         self, theta_h: Angle, theta_d: Angle, phi_d: Angle, cos_i: Angle, cos_o: Angle
     ) -> np.ndarray:
@@ -70,7 +86,7 @@ class Gltf(AnalyticModel):
         lobe = _lobe(theta_h, cos_i, cos_o, self.roughness)
         colour = channels(self.base_color, lobe)
         f0 = np.minimum(1, channels(self.specular_color, lobe) * f0_of_ior(self.ior))
-        F = self.specular * (f0 + (1 - f0) * white)
+        F = self._fresnel(f0, white)
         dielectric = (1 - F.max(axis=0)) * colour / np.pi + F * lobe
         metal = (colour + (1 - colour) * white) * lobe
         f = dielectric + self.metallic * (metal - dielectric)
@@ -79,6 +95,16 @@ class Gltf(AnalyticModel):
         coat = _lobe(theta_h, cos_i, cos_o, self.clearcoat_roughness)
         share = self.clearcoat * (COAT_F0 + (1 - COAT_F0) * schlick(cos_o))
         return f + share * (coat - f)
+
+    def _fresnel(self, f0: np.ndarray, white: Angle) -> np.ndarray:
+        return self.specular * (f0 + (1 - f0) * white)
+
+
+class _InBlender(Gltf):
+    """The dielectric as Blender's Principled BSDF has it, whose edge is white."""
+
+    def _fresnel(self, f0: np.ndarray, white: Angle) -> np.ndarray:
+        return self.specular * f0 + (1 - self.specular * f0) * white
 
 
 def _lobe(theta_h: Angle, cos_i: Angle, cos_o: Angle, roughness: float) -> Angle:

@@ -37,11 +37,20 @@ class AnalyticModel(IsotropicModel):
     """Of each parameter, in the order of the fields; a colour's range is that of each channel."""
     colours: ClassVar[frozenset[str]]
     """The parameters of three channels."""
+    n_searches: ClassVar[int] = 2
+    """From how many of the starts to search."""
+    simpler: ClassVar[Sequence[Mapping[str, float]]] = ()
+    """Parameters that may be held, by their values, for the sake of other programs."""
 
     @classmethod
     @abstractmethod
     def starts(cls, body: Colour, glossy: Colour) -> Sequence["AnalyticModel"]:
         """Where a search may begin, for a material of this diffuse and this whole albedo."""
+
+    @property
+    def readings(self) -> Mapping[str, "AnalyticModel"]:
+        """What programs make of the parameters that do not take all of them as they are meant, by which programs those are."""
+        return {}
 
     def __post_init__(self) -> None:
         for name in self.colours:
@@ -80,6 +89,12 @@ class AnalyticModel(IsotropicModel):
             values[name] = vector[start:stop] if name in cls.colours else float(vector[start])
             start = stop
         return cls(**values)
+
+    @classmethod
+    def held(cls, values: Mapping[str, float]) -> Vector:
+        """A vector of these parameters' values, NaN elsewhere."""
+        rows = [values.get(name, np.nan) for name in cls.ranges for _ in range(cls._size(name))]
+        return np.array(rows, np.float64)
 
     def to_vector(self) -> Vector:
         """All parameters in the order of the fields."""
