@@ -6,16 +6,16 @@ Programs that are no dependency run in environments of their own (`python_with`)
 """
 
 import struct
-import subprocess
 import sys
 import tempfile
-import textwrap
 from collections.abc import Callable, Iterator
 from importlib.metadata import version
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
+from compatibility_rows import Row, python_with
+from compatibility_scenes import SCENES
 
 from halfway import MERL, Grid, HalfDiff, TabularBrdf, from_half_diff
 from halfway.errors import FormatError
@@ -35,17 +35,6 @@ wrote or read the file; *emulated*, that the file was made as its code makes it.
 """
 
 
-class Row(NamedTuple):
-    """One thing that was tried."""
-
-    program: str
-    how: str
-    """``run`` or ``emulated``."""
-    what: str
-    tried: Callable[[Path], str]
-    """Makes the file in an empty folder, tries it, says what came of it."""
-
-
 def main() -> None:
     """Try every row, and write the page."""
     sections = [line for title, rows in SECTIONS.items() for line in section(title, rows)]
@@ -61,16 +50,6 @@ def section(title: str, rows: list[Row]) -> Iterator[str]:
         print(f"{program}: {what}: {result}", file=sys.stderr)
         yield f"| {program} | {how} | {what} | {result} |"
     yield ""
-
-
-def python_with(packages: list[str], program: str, folder: Path) -> str:
-    """What a Python program prints that runs in ``folder`` in an environment of these packages alone."""
-    extra = [word for package in packages for word in ("--with", package)]
-    done = subprocess.run(
-        ["uv", "run", "--quiet", "--no-project", *extra, "python", "-c", textwrap.dedent(program)],
-        cwd=folder, check=True, capture_output=True, text=True,
-    )  # fmt: skip
-    return done.stdout.strip()
 
 
 # Tables and materials
@@ -195,6 +174,7 @@ SECTIONS = {
         Row(f"Mitsuba {version('mitsuba')}, `tensor_io`", "run", "`.bsdf`", bsdf(1, by="tensor_io")),
         Row("Mitsuba2_measured_mat, `save_tensor.py`", "emulated", "`.bsdf`, version bytes 88.0", bsdf(88)),
     ],
+    **SCENES,
 }  # fmt: skip
 
 
