@@ -1,7 +1,7 @@
-"""Rendering on a graphics card: is it chosen, is it right, and what does it take. ``python benchmarks/gpu.py``
+"""Rendering on a graphics card: is it chosen, is it right, and what does it take.
 
-Prints what `halfway doctor` finds, the largest difference of values that the BSDF looks up from those of the table, the
-furnace, and milliseconds: of a picture as a table, as Mitsuba's own blend and as its ``measured``, and of a new table.
+``python benchmarks/gpu.py`` prints what `halfway doctor` finds, the largest difference of values that the BSDF looks up from
+those of the table, and milliseconds: of a picture as a table, as Mitsuba's own blend and as its ``measured``, and of a new table.
 Where there is no card it runs on the CPU, smaller (``--size 96``).
 """
 

@@ -231,7 +231,7 @@ def test_a_library_that_changed_on_the_way_is_refused(folder, tmp_path):
     other = tmp_path / "other"
     write_merl(other / "only.binary", random_tables(1, GRID, seed=3)["material-0"])
     build_library([other], tmp_path / "x.brdflib")
-    with pytest.raises(LibraryError, match="it was built again, or is another folder"):
+    with pytest.raises(LibraryError, match="it was made again, or is another on this machine"):
         pickle.loads(packed)
     with pytest.raises(LibraryError, match="is gone: it was there when the library was opened"):
         first.row(0)

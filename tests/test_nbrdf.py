@@ -110,7 +110,7 @@ class TestArchive:
     def test_a_library_of_it_says_where_it_comes_from(self, tmp_path):
         """And so does one that is made of that library, and of more; a person's word on source and licence counts more."""
         with zipfile.ZipFile(tmp_path / "all.zip", "w") as archive:
-            archive.writestr("gold.h5", encode(weights(2)))
+            archive.writestr("gold.h5", keras(nbrdf_layers(2)))
         origin = open_library(tmp_path / "all.zip").origin
         assert "stand-in" in origin.description
         assert origin.source

@@ -7,7 +7,7 @@ from rgl_files import directions, fields, plugin_values, viewers
 
 from halfway import MERL, Grid, TabularBrdf, tabulate
 from halfway.brdf.quality import Quality, lit_sphere, quality
-from halfway.errors import OutputError
+from halfway.errors import FormatError, OutputError
 from halfway.formats import read_rgl
 from halfway.formats.rgl_reader import from_fields
 from halfway.formats.rgl_writer import RESOLUTIONS, WAVELENGTHS, Resolution, write_rgl
@@ -96,9 +96,9 @@ def test_a_black_material_stays_black(tmp_path):
     assert_allclose(lit_sphere(read_rgl(written.path)), 0)
 
 
-def test_what_is_unmeasured_everywhere_is_black(tmp_path):
-    write_rgl(tmp_path / "x.bsdf", constant(np.nan), resolution=COARSE)
-    assert_allclose(lit_sphere(read_rgl(tmp_path / "x.bsdf")), 0)
+def test_what_is_unmeasured_everywhere_is_refused(tmp_path):
+    with pytest.raises(FormatError, match="is measured nowhere on a lit sphere"):
+        write_rgl(tmp_path / "x.bsdf", constant(np.nan), resolution=COARSE)
 
 
 def test_negative_values_are_written_as_0(tmp_path):

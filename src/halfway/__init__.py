@@ -12,9 +12,11 @@ if TYPE_CHECKING:
     from .brdf import Brdf, TabularBrdf, directional_albedo, tabulate
     from .components import Pca
     from .errors import HalfwayError
+    from .formats import read_brdf, write_brdf
     from .halfdiff import MERL, Grid, HalfDiff, from_half_diff, to_half_diff
     from .library import Library, build_library, open_library
     from .recipes import Recipe, mix
+    from .render import picture
     from .space import LinearSpace, PaperSpace, Route, Space, make_space, route
 
 _HOMES = {
@@ -22,8 +24,10 @@ _HOMES = {
     "errors": ("HalfwayError",),
     "halfdiff": ("MERL", "Grid", "HalfDiff", "from_half_diff", "to_half_diff"),
     "components": ("Pca",),
+    "formats": ("read_brdf", "write_brdf"),
     "library": ("Library", "build_library", "open_library"),
     "recipes": ("Recipe", "mix"),
+    "render": ("picture",),
     "space": ("LinearSpace", "PaperSpace", "Route", "Space", "make_space", "route"),
 }
 
@@ -47,9 +51,12 @@ __all__ = [
     "make_space",
     "mix",
     "open_library",
+    "picture",
+    "read_brdf",
     "route",
     "tabulate",
     "to_half_diff",
+    "write_brdf",
 ]
 
 

@@ -11,6 +11,7 @@ from .scenes import SCENES, Scene
 from .sheets import in_rows, write_pictures
 from .studio import studio
 from .variant import register
+from .verb import picture
 
 __all__ = [
     "QUALITY",
@@ -24,6 +25,7 @@ __all__ = [
     "doctor",
     "fit_sheet",
     "in_rows",
+    "picture",
     "pictures",
     "register",
     "studio",
