@@ -158,7 +158,8 @@ def pack(brdf: TabularBrdf) -> Any:
 
 def _known(values: Any) -> Any:
     """The values, `UNMEASURED` for NaN."""
-    magnitude = dr.reinterpret_array(mi.UInt32, values) & 0x7FFFFFFF
+    bits: Any = dr.reinterpret_array(mi.UInt32, values)
+    magnitude = bits & 0x7FFFFFFF
     return dr.select(magnitude > 0x7F800000, UNMEASURED, values)
 
 

@@ -76,4 +76,4 @@ def refined(image: np.ndarray, size: tuple[int, int]) -> np.ndarray:
         Image.fromarray(np.ascontiguousarray(plane)).resize(size, Image.Resampling.BILINEAR, box)
         for plane in np.moveaxis(image, -1, 0)
     ]
-    return np.stack(planes, axis=-1)
+    return np.stack([np.asarray(plane) for plane in planes], axis=-1)
