@@ -6,7 +6,7 @@ from numpy.testing import assert_allclose, assert_array_equal
 from PIL import Image
 
 from halfway.errors import OutputError
-from halfway.render import pictures
+from halfway.render import Renderer, pictures, write_pictures
 
 
 def grey(value: float, size: int = 32) -> np.ndarray:
@@ -35,6 +35,14 @@ def test_a_written_picture_reads_back(tmp_path, suffix):
     read = np.array(Image.open(tmp_path / f"a{suffix}").convert("RGB"))
     assert_allclose(read, pictures.to_8_bit(image), atol=1)
     assert [path.name for path in tmp_path.iterdir()] == [f"a{suffix}"]
+
+
+@pytest.mark.parametrize("exposure", [float("nan"), float("inf"), -65.0])
+def test_an_exposure_that_shows_nothing_is_refused_before_anything_is_rendered(tmp_path, exposure):
+    with pytest.raises(OutputError, match=f"exposure of {exposure:g} stops shows nothing"):
+        pictures.to_8_bit(grey(0.1), exposure=exposure)
+    with pytest.raises(OutputError, match="expected -64 to 64"):
+        write_pictures(tmp_path / "a.png", Renderer("sphere"), [], exposure=exposure)
 
 
 def test_exr_keeps_the_radiance(tmp_path):

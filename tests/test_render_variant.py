@@ -1,7 +1,9 @@
 """Which Mitsuba runs: devices, LLVM libraries, variants, and what the doctor says of them."""
 
+import signal
 import subprocess
 import sys
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
@@ -12,6 +14,7 @@ from halfway.brdf import TabularBrdf
 from halfway.errors import RenderError
 from halfway.halfdiff import Grid
 from halfway.render import Renderer, doctor, llvm, variant
+from halfway.render.interrupts import interrupts_wait
 from halfway.render.llvm import OLDEST_LLVM, Llvm, find_llvm, require_llvm
 from halfway.render.variant import VARIANTS, load_mitsuba, require_tables
 
@@ -117,6 +120,24 @@ mi.Log(mi.LogLevel.Warn, "beware")
 """)
     assert done.stdout == ""
     assert "beware" in done.stderr
+
+
+def test_ctrl_c_waits_for_compiled_code():
+    done = []
+    with pytest.raises(KeyboardInterrupt), interrupts_wait():
+        signal.raise_signal(signal.SIGINT)
+        done.append("the block")
+    assert done == ["the block"]
+    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+
+
+def test_other_threads_have_no_ctrl_c_to_wait_for():
+    def block() -> str:
+        with interrupts_wait():
+            return "done"
+
+    with ThreadPoolExecutor(1) as pool:
+        assert pool.submit(block).result() == "done"
 
 
 def test_an_llvm_that_aborts_is_not_chosen():

@@ -24,12 +24,29 @@ from ..files import replacing, suffix_of
 PAPER = 255
 INK = (70, 70, 70)
 WRITTEN = (".png", ".jpg", ".jpeg", ".webp", ".exr")
+MOST_STOPS = 64
+"""Of an exposure, up or down."""
 MOST_FPS = 240
 ANIMATED = (".webp", ".gif", ".mp4")
 
 
+def require_exposure(exposure: float) -> None:
+    """Refuse one that shows nothing.
+
+    Raises
+    ------
+    OutputError
+        Says what is expected.
+    """
+    if not abs(exposure) <= MOST_STOPS:
+        raise OutputError(
+            f"an exposure of {exposure:g} stops shows nothing: expected {-MOST_STOPS} to {MOST_STOPS}."
+        )
+
+
 def to_8_bit(image: np.ndarray, *, exposure: float = 0.0) -> np.ndarray:
     """The 8-bit sRGB coding of a linear picture, ``exposure`` stops brighter."""
+    require_exposure(exposure)
     if image.dtype == np.uint8:
         return image
     return np.round(255 * to_srgb(image * np.float32(2.0**exposure))).astype(np.uint8)

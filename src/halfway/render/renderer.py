@@ -24,6 +24,7 @@ from ..tasks import HERE, Work
 from .camera import refined
 from .denoise import denoiser_available, require_denoiser
 from .exposure import Exposure, no_progress
+from .interrupts import interrupts_wait
 from .scenes import SCENES, Material, Scene
 from .studio import studio
 from .variant import Device, compiles, load_mitsuba, register
@@ -110,11 +111,12 @@ class Renderer:
             require_denoiser()
         self._denoise = denoise
         self._work = work
-        from .stage import Stage
-
         env, mesh = (None if path is None else Path(path) for path in (env, mesh))
         self._files = env, mesh
-        self._stage = Stage(self.scene, size=size, env=env, mesh=mesh)
+        with interrupts_wait():
+            from .stage import Stage
+
+            self._stage = Stage(self.scene, size=size, env=env, mesh=mesh)
 
     @property
     def exact(self) -> bool:

@@ -58,8 +58,9 @@ def write_pictures(
     Raises
     ------
     OutputError
-        When the suffix is of no known kind, or the files cannot be written.
+        When the suffix is of no known kind, the exposure shows nothing, or the files cannot be written.
     """
+    pictures.require_exposure(exposure)
     if not path.suffix:
         materials = _flat(rows)
         done = _write_folder(path, renderer, materials, suffix, exposure, work)

@@ -15,6 +15,7 @@ from .denoise import denoised
 from .environment import read_environment
 from .exposure import Exposure, Layer
 from .ground import seen_through
+from .interrupts import interrupts_wait
 from .mesh import Mesh, placed, sweep
 from .scenes import Camera, Material, Placed, PointLight, Scene
 from .studio import as_bright_as_the_studio, studio
@@ -72,6 +73,7 @@ class Stage:
         # Where they cover a part of a pixel, the rest is as the whole would be.
         return beside._replace(radiance=beside.radiance / np.maximum(1 - objects.alpha, 1 / 64))
 
+    @interrupts_wait()
     def _dress(self, materials: list[Material]) -> None:
         if self._wardrobe.change(materials):
             self._scenes = {}
@@ -113,8 +115,9 @@ def _photograph(scenes: list[Any], photographer: Any, exposure: Exposure) -> Lay
     takes = [(seed, scene) for seed in passes.seeds for scene in scenes]
     total = np.zeros((window.height, window.width, 4), np.float32)
     for done, (seed, scene) in enumerate(takes, start=1):
-        image = mi.render(scene, integrator=photographer, spp=passes.spp, seed=mi.UInt32(seed))
-        total += np.array(image)
+        with interrupts_wait():
+            image = mi.render(scene, integrator=photographer, spp=passes.spp, seed=mi.UInt32(seed))
+            total += np.array(image)
         exposure.progress(done, len(takes))
     total /= len(passes.seeds)
     # Each light's picture has brought the same coverage.

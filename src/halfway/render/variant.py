@@ -12,6 +12,7 @@ import sys
 from typing import Any, Literal, get_args
 
 from ..errors import RenderError
+from .interrupts import interrupts_wait
 from .llvm import OLDEST_LLVM, choose_llvm, find_llvm, llvm_advice, require_llvm
 
 Device = Literal["auto", "cpu", "gpu"]
@@ -27,6 +28,7 @@ _DRIVER = {
 """The driver's libraries that Dr.Jit loads, each by the variable that may name another."""
 
 
+@interrupts_wait()
 def load_mitsuba(device: Device = "auto") -> Any:
     """The ``mitsuba`` module with a variant set: the program's own choice, else the fitting one of ``device``.
 
@@ -115,6 +117,7 @@ def require_tables(variant: str) -> None:
         )
 
 
+@interrupts_wait()
 def _register_in(_: str | None, variant: str) -> None:
     """Register the table in the variant that is set now; `mitsuba.BSDF` is another class in each."""
     if not compiles(variant):
