@@ -124,9 +124,13 @@ mi.Log(mi.LogLevel.Warn, "beware")
 
 def test_ctrl_c_waits_for_compiled_code():
     done = []
-    with pytest.raises(KeyboardInterrupt), interrupts_wait():
+
+    def press_and_go_on():
         signal.raise_signal(signal.SIGINT)
         done.append("the block")
+
+    with pytest.raises(KeyboardInterrupt), interrupts_wait():
+        press_and_go_on()
     assert done == ["the block"]
     assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
 
