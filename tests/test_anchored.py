@@ -156,7 +156,7 @@ def test_a_point_by_the_names_of_its_coordinates(space):
     with pytest.raises(SpaceError, match=r"the point lacks \['body_g'\]"):
         space.at(named)
     with pytest.raises(
-        SpaceError, match="the point has 2 coordinates: expected 6 numbers, score_1"
+        SpaceError, match="the point has 2 coordinates: expected 7 numbers, score_1"
     ):
         space.at(np.zeros(2))
 
@@ -179,7 +179,7 @@ def test_paced_steps_look_equally_far_apart(space, images):
     """Largest step at most 1.1 times the mean, where uniform t gives more."""
     route = Route.through(space, ["material-0", "material-7", "material-3"])
     paced = perceptual(route, images)
-    looks = appearance(images.mix(paced.at(np.linspace(0, 1, 51)), Blend.LINEAR))
+    looks = appearance(images.mix(paced.at(np.linspace(0, 1, 51)), paced.blend))
     steps = ciede2000_difference(looks[1:], looks[:-1])
     assert steps.max() / steps.mean() < 1.1
 
@@ -196,7 +196,9 @@ def test_pacing_changes_when_not_where(space, images):
 
 def test_a_route_on_which_nothing_changes_keeps_its_t(library, images):
     space = LinearSpace.of(library)
-    same = Looks(images.names, images.scene, np.repeat(images.planes[:, :1], 12, axis=1))
+    same = Looks(
+        images.names, images.scene, np.repeat(images.planes[:, :1], 12, axis=1), images.tables
+    )
     route = Route.through(space, ["material-0", "material-1"])
     assert_allclose(perceptual(route, same).at(np.array([0.5])), route.at(np.array([0.5])))
 
@@ -239,12 +241,10 @@ def test_cherry_to_tungsten_carbide_on_the_neural_stand_in(shared_data):
     some = {name: networks.models[name] for name in wanted}
     # On fewer cells than the database's: the pictures are as small.
     few = ProceduralLibrary("few", some, grid=Grid.merl(60, 30, 36))
-    space = make_space("anchored", few)
+    space = make_space("anchored", few, blend="linear")
     route = Route.through(space, ["cherry-235", "tungsten-carbide"])
     images = Looks.fit(few)
-    looks = appearance(
-        images.mix(perceptual(route, images).at(np.linspace(0, 1, 51)), Blend.LINEAR)
-    )
+    looks = appearance(images.mix(perceptual(route, images).at(np.linspace(0, 1, 51)), route.blend))
     length = cielab_difference(looks[1:], looks[:-1]).sum()
     assert length / cielab_difference(looks[0], looks[-1]) < 1.12
     steps = ciede2000_difference(looks[1:], looks[:-1])

@@ -23,7 +23,6 @@ from halfway.look import JUDGING_SCENE, PACING_SCENE, CellSamples, Looks, body_c
 from halfway.look.appearance import appearance, cielab_difference, to_lab
 from halfway.look.samples import body_mask
 from halfway.models import AbcModel
-from halfway.recipes import Blend
 from halfway.space import (
     Coordinates,
     LinearSpace,
@@ -65,7 +64,7 @@ def bench_of(library: ProceduralLibrary, *, size: int = 8, n_cells: int = 400) -
         Looks.fit(library, dataclasses.replace(scene, size=size, n_points=2))
         for scene in (PACING_SCENE, JUDGING_SCENE)
     )
-    return Bench(pacing, judging, CellSamples.fit(library, n_cells=n_cells))
+    return Bench(pacing, judging, CellSamples.fit(library, n_cells=n_cells), library)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -212,7 +211,7 @@ def test_the_body_colour_of_a_mix_is_the_mean_of_its_table(
     weights = np.random.default_rng(1).dirichlet(np.ones(6), 3)
     row = np.einsum("cn,ncp->cp", weights, np.stack([library.row(i) for i in range(6)]))
     expected = row[:, body_mask(GRID).ravel()].mean(axis=1)
-    assert_allclose(bench.samples.body_colour(weights, Blend.LINEAR), expected, rtol=1e-6)
+    assert_allclose(bench.samples.body_colour(weights), expected, rtol=1e-6)
 
 
 def test_body_colours_are_seen_beside_the_highlight_and_away_from_grazing():

@@ -30,7 +30,7 @@ def test_the_folder_holds_the_recipes_and_the_tables(route, small_library, tmp_p
     ]
     document = json.loads((tmp_path / "route" / "recipes.json").read_text())
     assert {key: document[key] for key in ("format", "library", "space", "pace", "blend", "stops")} == {
-        "format": 1, "library": "small", "space": "linear", "pace": "uniform", "blend": "linear", "stops": ["material-0", "material-1"]
+        "format": 2, "library": "small", "space": "linear", "pace": "uniform", "blend": "linear", "stops": ["material-0", "material-1"]
     }  # fmt: skip
     assert document["recipes"][1] == {"t": 0.5, "weights": {"material-0": 0.5, "material-1": 0.5}}
 

@@ -52,7 +52,7 @@ def test_a_point_may_be_given_by_the_names_of_its_coordinates(space):
 
 def test_coordinates_of_channels_begin_with_their_letter(spaces):
     assert spaces["paper"].coordinates[:4] == ("r_score_1", "r_score_2", "r_score_3", "g_score_1")
-    assert spaces["anchored"].coordinates[2:4] == ("score_3", "body_r")
+    assert spaces["anchored"].coordinates[3:5] == ("score_4", "body_r")
 
 
 def test_outside_the_hull_is_said_and_clamped_to_the_nearest(space):
@@ -72,7 +72,7 @@ def test_outside_the_hull_is_said_and_clamped_to_the_nearest(space):
     ("point", "message"),
     [
         ([0.0], "has 1 coordinates: expected"),
-        ([np.nan] * 6, "expected 6 numbers, score_1"),
+        ([np.nan] * 7, "expected 7 numbers, score_1"),
         ({"score_1": 0.0}, r"lacks \['score_2'"),
     ],
 )

@@ -31,6 +31,7 @@ def mix(
         str,
         typer.Option(metavar="X,Y,...", help="A point of the space, instead of a recipe."),
     ] = "",
+    blend: options.Blending = None,
     space: options.Space = SpaceName.anchored,
     clamp: Annotated[
         bool, typer.Option(help="Take the nearest mix where the point is outside the hull.")
@@ -42,6 +43,7 @@ def mix(
 
     \b
     halfway mix "gold-paint=0.7, teflon=0.3" -o new.binary
+    halfway mix "teflon=0.5, chrome=0.5" --blend lobes -o new.binary
     halfway mix "scan.binary=0.5, chrome=0.5" -o new.binary
     halfway mix route/recipes.json:25 -o middle.binary
     halfway mix --point=-2e4,1e3,-500,0.1,0.05,0.02 --clamp -o there.binary     coordinates: halfway space
@@ -60,9 +62,10 @@ def mix(
         if rest:
             raise ArgumentError("--point and a recipe are given: a material takes one of them.")
         opened = open_library(library or where)
-        recipe = make_space(space, opened, work=work()).at(parse_point(point), clamp=clamp).recipe
+        chosen = make_space(space, opened, blend=blend, work=work())
+        recipe = chosen.at(parse_point(point), clamp=clamp).recipe
     else:
-        opened, recipe = open_recipe(words, library=library)
+        opened, recipe = open_recipe(words, library=library, blend=blend)
     material = NamedBrdf.mixed(opened, recipe)
     with writing(output, recipe_beside(output, material), force=force):
         write_material(output, material)

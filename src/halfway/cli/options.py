@@ -72,6 +72,13 @@ class SpaceName(StrEnum):
     linear = "linear"
 
 
+class BlendName(StrEnum):
+    linear = "linear"
+    root = "root"
+    log = "log"
+    lobes = "lobes"
+
+
 class Pace(StrEnum):
     perceptual = "perceptual"
     uniform = "uniform"
@@ -131,7 +138,19 @@ Detour = Annotated[
     typer.Option(help="Longest anchored way, as a multiple of the direct one; 1 is nearly linear."),
 ]
 Components = Annotated[
-    int, typer.Option("-k", help="Scores that span the space; the paper's takes 1 to 6.")
+    int | None,
+    typer.Option(
+        "-k",
+        help="Scores that span the space; the paper's takes 1 to 6. [default: 4 anchored, 3 the paper's]",
+    ),
+]
+Blending = Annotated[
+    BlendName | None,
+    typer.Option(
+        "--blend",
+        help="lobes: one highlight that narrows; linear: the paper's; root, log: means of square roots, of logarithms. "
+        "[default: what a recipe's file says; lobes in the anchored space; else linear]",
+    ),
 ]
 RouteFolder = Annotated[
     str | None,

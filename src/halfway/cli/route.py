@@ -14,7 +14,8 @@ def route(
     space: options.Space = SpaceName.anchored,
     pace: options.Pacing = Pace.perceptual,
     detour: options.Detour = 1.1,
-    components: options.Components = 3,
+    components: options.Components = None,
+    blend: options.Blending = None,
     output: options.RouteFolder = None,
     format: options.Tables = TableFormat.none,
     as_json: options.RouteJson = False,
@@ -52,6 +53,7 @@ def route(
             space=space,
             pace=pace,
             n_components=components,
+            blend=blend,
             detour=detour,
             work=work,
         )

@@ -24,7 +24,8 @@ def space(
     ] = "",
     n: Annotated[int, typer.Option("-n", help="How many neighbours.")] = 8,
     space: options.Space = SpaceName.anchored,
-    components: options.Components = 3,
+    components: options.Components = None,
+    blend: options.Blending = None,
     as_json: options.AsJson = False,
 ) -> None:
     """Say where each material is in a space: the coordinates that `halfway mix --point` takes.
@@ -40,7 +41,7 @@ def space(
     library = open_library(lib)
     if near:
         library.index(near)
-    chosen = make_space(space, library, n_components=components, work=work())
+    chosen = make_space(space, library, n_components=components, blend=blend, work=work())
     neighbours = chosen.neighbours(near, n) if near else []
     if as_json:
         nearest = {"neighbours": dict(neighbours)} if near else {}

@@ -1,7 +1,8 @@
 """Principal components of a library, all that makes them, and compact libraries made of them."""
 
 from .compacting import compact_library
+from .mapped import MappedRows
 from .pca import Pca
 from .plan import PcaPlan
 
-__all__ = ["Pca", "PcaPlan", "compact_library"]
+__all__ = ["MappedRows", "Pca", "PcaPlan", "compact_library"]

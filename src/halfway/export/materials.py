@@ -78,7 +78,7 @@ def _recipe_document(material: NamedBrdf) -> dict[str, Any]:
     assert library is not None
     assert recipe is not None
     return {
-        "format": 1,
+        "format": 2,
         **recipe.to_json(),
         "library_address": library.address,
         "library_checksum": library.checksum,

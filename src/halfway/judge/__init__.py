@@ -2,14 +2,18 @@
 
 from .comparison import compare_spaces
 from .evaluation import Bench, Evaluation, evaluate, sample_pairs, uniform
+from .ladders import LadderErrors, ladder_errors, ladders
 from .leave_one_out import LeaveOneOut, leave_one_out
 
 __all__ = [
     "Bench",
     "Evaluation",
+    "LadderErrors",
     "LeaveOneOut",
     "compare_spaces",
     "evaluate",
+    "ladder_errors",
+    "ladders",
     "leave_one_out",
     "sample_pairs",
     "uniform",

@@ -20,7 +20,7 @@ Pictures are those of `halfway.look.Looks`, table metrics those of `halfway.look
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import partial
+from functools import cached_property, partial
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -33,12 +33,13 @@ from ..look import (
     PACING_SCENE,
     CellSamples,
     Looks,
+    SphereOperator,
     appearance,
     ciede2000_difference,
     cielab_difference,
     shown,
 )
-from ..recipes import Blend
+from ..recipes import Blend, Mixer, Recipe
 from ..space import Route, Space, perceptual
 from ..tasks import HERE, Work
 
@@ -76,6 +77,7 @@ class Bench:
     judging: Looks
     """Of another scene; used for nothing but judging."""
     samples: CellSamples
+    library: Library
 
     @classmethod
     def fit(
@@ -89,7 +91,45 @@ class Bench:
             Looks.fit(library, PACING_SCENE, work=work),
             Looks.fit(library, JUDGING_SCENE, work=work),
             CellSamples.fit(library, work=work),
+            library,
         )
+
+    def seen(self, weights: Float64[np.ndarray, "3 n N"], blend: Blend) -> "Seen":
+        """What mixes of full tables are judged by."""
+        if blend is Blend.LINEAR:
+            return Seen(self.samples.mix(weights), self.judging.mix(weights, blend))
+        recipes = (
+            Recipe.from_dense("", self.samples.names, each, blend)
+            for each in weights.swapaxes(0, 1)
+        )
+        rows = [self._mixer.mix(recipe).values.reshape(3, -1) for recipe in recipes]
+        values = np.stack([row[:, self.samples.cells] for row in rows], axis=1)
+        return Seen(values, np.stack([self._operator.picture(row) for row in rows]))
+
+    def body_colour(
+        self, weights: Float64[np.ndarray, "3 n N"], blend: Blend
+    ) -> Float64[np.ndarray, "n 3"]:
+        """Body colours of mixes, 1/sr; those that are not linear from small tables."""
+        if blend is Blend.LINEAR:
+            return self.samples.body_colour(weights)
+        return self.pacing.tables.body_colour(weights, blend)
+
+    @cached_property
+    def _mixer(self) -> Mixer:
+        return Mixer(self.library)
+
+    @cached_property
+    def _operator(self) -> SphereOperator:
+        return SphereOperator.of(self.judging.scene, self.library.grid)
+
+
+class Seen(NamedTuple):
+    """What mixes are judged by."""
+
+    values: Float32[np.ndarray, "3 n n_cells"]
+    """On the cells of `CellSamples`, 1/sr."""
+    pictures: Float32[np.ndarray, "n n_pixels 3"]
+    """Of the judging scene, linear RGB."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -209,11 +249,11 @@ def _looks(
     Float32[np.ndarray, "n n_features"],
     Float32[np.ndarray, "n n_pixels 3"],
 ]:
-    values = bench.samples.mix(weights, blend)
+    seen = bench.seen(weights, blend)
     return (
-        bench.samples.features(values),
-        bench.samples.features(values, by="cell"),
-        appearance(bench.judging.mix(weights, blend)),
+        bench.samples.features(seen.values),
+        bench.samples.features(seen.values, by="cell"),
+        appearance(seen.pictures),
     )
 
 
@@ -233,7 +273,7 @@ def _measure(
         distance,
         length / distance if distance else np.nan,
         [_jumps(bench, pace(route)) for pace in paces],
-        _hue_excursion(bench.samples.body_colour(evenly, route.blend)),
+        _hue_excursion(bench.body_colour(evenly, route.blend)),
         measured.nearest(bench, middle, route.blend),
         1.0 - float(middle[:, 0, pair].sum()) / 3,
     )

@@ -54,11 +54,11 @@ def leave_one_out(space: Space, bench: Bench, *, work: Work = HERE) -> LeaveOneO
 def _errors(space: Space, bench: Bench, i: int) -> dict[str, float]:
     samples = bench.samples
     weights = np.stack([np.eye(len(samples.names))[i][None].repeat(3, 0), space.without(i)], axis=1)
-    values = samples.mix(weights, space.blend)
+    values, pictures = bench.seen(weights, space.blend)
     looks: dict[str, np.ndarray] = {
         metric: samples.features(values, metric) for metric in metrics.MAPPINGS
     }
     looks["log by cell"] = samples.features(values, by="cell")
-    seen = appearance(bench.judging.mix(weights, space.blend))
+    seen = appearance(pictures)
     errors = {name: float(np.linalg.norm(look[0] - look[1])) for name, look in looks.items()}
     return errors | {"seen": float(cielab_difference(seen[0], seen[1]))}

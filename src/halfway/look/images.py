@@ -4,11 +4,12 @@ Direct light is linear in the BRDF, so the picture of a recipe is the same weigh
 
     picture(a) = sum_i a_i picture_i         per channel
 
-(exactly where the materials are measured on the same cells). A hundred pictures along a route cost milliseconds.
+(exactly where the materials are measured on the same cells). A hundred pictures along a route cost milliseconds. The pictures
+of another blend's mixes are made of small tables, a few milliseconds each.
 """
 
 from dataclasses import dataclass, replace
-from functools import partial
+from functools import lru_cache, partial
 
 import numpy as np
 from jaxtyping import Float, Float32
@@ -18,10 +19,13 @@ from ..library import Library
 from ..recipes import Blend, Recipe
 from ..tasks import HERE, Work
 from .appearance import appearance, cielab_difference
-from .lit_sphere import PACING_SCENE, SphereOperator, SphereScene
+from .lit_sphere import PACING_SCENE, FilledSphere, SphereOperator, SphereScene
+from .small_tables import GRID, SmallTables
 
 THINNING = 4
 """Every so many pixels are enough to choose materials by."""
+N_AT_ONCE = 32
+"""Mixes whose pictures are made together, where pictures do not mix."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,6 +37,9 @@ class Looks:
     scene: SphereScene
     planes: Float32[np.ndarray, "3 N n_pixels"]
     """Linear RGB, 1 is the white of the display; only the pixels of the sphere, in the order of ``scene.mask()``."""
+    tables: SmallTables
+    step: int = 1
+    """Every so many pixels of the scene are there."""
 
     @classmethod
     def fit(
@@ -46,7 +53,7 @@ class Looks:
         key = f"basis-1-{scene.fingerprint()}-{library.checksum}"
         planes = work.cached(key, lambda: {"planes": _planes(library, scene, work)})["planes"]
         planes.flags.writeable = False
-        return cls(library.names, scene, planes)
+        return cls(library.names, scene, planes, SmallTables(library, work=work))
 
     @property
     def images(self) -> Float32[np.ndarray, "N n_pixels 3"]:
@@ -55,15 +62,22 @@ class Looks:
 
     def thinned(self, step: int) -> "Looks":
         """Every so many pixels of the pictures, which are enough to measure differences with; contiguous."""
-        return replace(self, planes=np.ascontiguousarray(self.planes[..., ::step]))
+        planes = np.ascontiguousarray(self.planes[..., ::step])
+        return replace(self, planes=planes, step=step * self.step)
 
     def mix(
         self, weights: Float[np.ndarray, "3 *k N"], blend: Blend
     ) -> Float32[np.ndarray, "*k n_pixels 3"]:
         """Linear RGB of recipes, given by their weights over all materials; axes between stay."""
-        match blend:
-            case Blend.LINEAR:
-                return self._sum(weights)
+        if blend is Blend.LINEAR:
+            return self._sum(weights)
+        flat = weights.reshape(3, -1, weights.shape[-1])
+        sphere = _sphere(self.scene, self.step)
+        chunks = (
+            sphere.pictures(self.tables.mix(flat[:, start : start + N_AT_ONCE], blend))
+            for start in range(0, flat.shape[1], N_AT_ONCE)
+        )
+        return np.concatenate(list(chunks)).reshape(*weights.shape[1:-1], -1, 3)
 
     def _sum(self, weights: Float[np.ndarray, "3 *k N"]) -> Float32[np.ndarray, "*k n_pixels 3"]:
         """Direct light is linear in the BRDF: the picture of a linear mix is the mix of the pictures."""
@@ -82,6 +96,11 @@ class Looks:
         picture = np.zeros((*mask.shape, 3), np.float32)
         picture[mask] = self.mix(weights, recipe.blend)
         return picture
+
+
+@lru_cache(maxsize=6)
+def _sphere(scene: SphereScene, step: int) -> FilledSphere:
+    return FilledSphere.of(scene, GRID, step=step)
 
 
 def most_different(images: Looks, n: int) -> list[str]:

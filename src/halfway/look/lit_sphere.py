@@ -157,6 +157,30 @@ class SphereOperator(NamedTuple):
         return self.lights @ values + self.sky @ (self.moments @ values)
 
 
+class FilledSphere(NamedTuple):
+    """What `SphereOperator` does, for tables that have a value in every cell: lookups and sums are one matrix."""
+
+    cells: Indices
+    direct: Sparse
+    """(n_pixels, n_touched)."""
+    moments: Sparse
+    """(n_nodes x 4, n_touched)."""
+    sky: Sparse
+    """(n_pixels, n_nodes x 4)."""
+
+    @classmethod
+    def of(cls, scene: SphereScene, grid: Grid, *, step: int = 1) -> "FilledSphere":
+        """Of every so many of the scene's pixels."""
+        cells, lookup, lights, moments, sky = SphereOperator.of(scene, grid)
+        return cls(cells, lights[::step] @ lookup, moments @ lookup, sky[::step])
+
+    def pictures(self, tables: Float32[np.ndarray, "3 k p"]) -> Float32[np.ndarray, "k n_pixels 3"]:
+        """Linear RGB of the sphere's pixels for each table."""
+        samples = tables[..., self.cells].reshape(-1, len(self.cells)).T
+        seen = self.direct @ samples + self.sky @ (self.moments @ samples)
+        return np.ascontiguousarray(seen.T.reshape(3, -1, len(seen)).transpose(1, 2, 0))
+
+
 class _Frame(NamedTuple):
     """Local frames of points on the sphere, in the camera's coordinates; tangent towards the viewer."""
 

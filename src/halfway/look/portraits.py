@@ -2,7 +2,7 @@
 
 The spheres are those of `lit_sphere`, in the light in which routes are paced, over a transparent background. Direct light
 is linear in the BRDF, so the portrait of a linear mix is the weighted sum of its materials' pictures: one picture is made
-of each material that carries weight, and no table is mixed.
+of each material that carries weight, and no table is mixed. Other blends mix tables.
 """
 
 import io
@@ -18,7 +18,7 @@ from ..brdf import TabularBrdf
 from ..colour import to_srgb
 from ..halfdiff import Grid
 from ..library import Library
-from ..recipes import Blend
+from ..recipes import Blend, Mixer, Recipe
 from ..tasks import HERE
 from .lit_sphere import PACING_SCENE, SphereOperator, SphereScene
 
@@ -45,13 +45,17 @@ def recipes_png(
     blend: Blend,
 ) -> bytes:
     """A PNG file of the spheres of recipes over the materials ``names`` of ``library``."""
-    used = np.flatnonzero(weights.any(axis=(0, 1)))
     scene = PORTRAIT_SCENE if weights.shape[1] == 1 else STRIP_SCENE
+    if blend is not Blend.LINEAR:
+        recipes = [
+            Recipe.from_dense(library, names, each, blend) for each in weights.swapaxes(0, 1)
+        ]
+        mixes = map(Mixer(library).mix, recipes)
+        return to_png([portrait(mixed.values, mixed.grid, scene) for mixed in mixes], scene)
+    used = np.flatnonzero(weights.any(axis=(0, 1)))
     indices = [library.index(names[int(i)]) for i in used]
     pictures = np.stack(list(HERE.run(partial(_picture, library, scene), indices)))
-    match blend:
-        case Blend.LINEAR:
-            mixed = np.einsum("ctn,npc->tpc", weights[..., used], pictures, optimize=True)
+    mixed = np.einsum("ctn,npc->tpc", weights[..., used], pictures, optimize=True)
     return to_png(list(mixed.astype(np.float32)), scene)
 
 

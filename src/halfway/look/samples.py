@@ -38,6 +38,8 @@ class CellSamples:
 
     names: tuple[str, ...]
     """The materials, in the library's order."""
+    cells: Int[np.ndarray, " n_cells"]
+    """Of the grid, flat."""
     values: Float32[np.ndarray, "3 N n_cells"]
     """f_r in 1/sr."""
     weights: Float64[np.ndarray, " n_cells"]
@@ -72,6 +74,7 @@ class CellSamples:
         kept = ~np.isnan(values).any(axis=(0, 1))
         return cls(
             library.names,
+            drawn.cells[kept],
             np.ascontiguousarray(values[..., kept]),
             _shares(drawn.weights[kept]),
             _shares(drawn.cell_weights[kept]),
@@ -79,23 +82,15 @@ class CellSamples:
             arrays["body"],
         )
 
-    def mix(
-        self, weights: Float[np.ndarray, "3 *k N"], blend: Blend
-    ) -> Float32[np.ndarray, "3 *k n_cells"]:
-        """Values of recipes, given by their weights over all materials."""
-        match blend:
-            case Blend.LINEAR:
-                few = weights.astype(np.float32)
-                return np.stack([w @ values for w, values in zip(few, self.values, strict=True)])
+    def mix(self, weights: Float[np.ndarray, "3 *k N"]) -> Float32[np.ndarray, "3 *k n_cells"]:
+        """Values of linear mixes, given by their weights over all materials."""
+        few = weights.astype(np.float32)
+        return np.stack([w @ values for w, values in zip(few, self.values, strict=True)])
 
-    def body_colour(
-        self, weights: Float[np.ndarray, "3 *k N"], blend: Blend
-    ) -> Float64[np.ndarray, "*k 3"]:
-        """Body colours of recipes, 1/sr."""
-        match blend:
-            case Blend.LINEAR:
-                sums = [w @ body for w, body in zip(weights, self.body.T, strict=True)]
-                return np.stack(sums, axis=-1)
+    def body_colour(self, weights: Float[np.ndarray, "3 *k N"]) -> Float64[np.ndarray, "*k 3"]:
+        """Body colours of linear mixes, 1/sr."""
+        sums = [w @ body for w, body in zip(weights, self.body.T, strict=True)]
+        return np.stack(sums, axis=-1)
 
     def features(
         self,
@@ -126,9 +121,10 @@ def body_mask(grid: Grid) -> Mask:
 def body_colours(
     library: Library,
     *,
+    blend: Blend = Blend.LINEAR,
     work: Work = HERE,
 ) -> Float64[np.ndarray, "N 3"]:
-    """The body colours of all materials of ``library``, 1/sr; kept in the cache under its checksum.
+    """The body colours of all materials of ``library``, in the mapping of a blend; kept in the cache under its checksum.
 
     Raises
     ------
@@ -139,10 +135,10 @@ def body_colours(
     def read() -> dict[str, np.ndarray]:
         cells = np.flatnonzero(body_mask(library.grid))
         tasks, label = range(len(library)), "Body colours"
-        rows = work.run(partial(_body, library, cells), tasks, label=label)
+        rows = work.run(partial(_body, library, cells, blend), tasks, label=label)
         return {"body": np.stack(list(rows))}
 
-    return work.cached(f"body-1-{library.checksum}", read)["body"]
+    return work.cached(f"body-1-{blend.mapping.name}-{library.checksum}", read)["body"]
 
 
 class _Drawn(NamedTuple):
@@ -190,14 +186,20 @@ def _read_one(
     return row[:, cells], _body_colour(library, row, body, i)
 
 
-def _body(library: Library, cells: Int[np.ndarray, " n_body"], i: int) -> Float64[np.ndarray, " 3"]:
-    return _body_colour(library, library.row(i), cells, i)
+def _body(
+    library: Library, cells: Int[np.ndarray, " n_body"], blend: Blend, i: int
+) -> Float64[np.ndarray, " 3"]:
+    return _body_colour(library, library.row(i), cells, i, blend)
 
 
 def _body_colour(
-    library: Library, row: Float32[np.ndarray, "3 p"], cells: Int[np.ndarray, " n_body"], i: int
+    library: Library,
+    row: Float32[np.ndarray, "3 p"],
+    cells: Int[np.ndarray, " n_body"],
+    i: int,
+    blend: Blend = Blend.LINEAR,
 ) -> Float64[np.ndarray, " 3"]:
-    body = row[:, cells]
+    body = blend.mapping.to(row[:, cells])
     if np.isnan(body).all(axis=1).any():
         raise LibraryError(
             f"{library.names[i]} of {library.name} has no measured cell with theta_h above {BODY_THETA_H_DEGREES:g} and "

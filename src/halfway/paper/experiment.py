@@ -15,6 +15,7 @@ from ..errors import LibraryError
 from ..judge import Bench, evaluate, uniform
 from ..library import Library
 from ..look import Looks, appearance, ciede2000_difference, cielab_difference
+from ..recipes import Blend
 from ..space import Route, Space, make_space
 from ..tasks import HERE, Work
 from .reported import FINE_TS, N_STEPS, RUNS, Run
@@ -69,7 +70,7 @@ class Experiment:
             library,
             Pca.fit(library, work=work),
             bench,
-            {name: make_space(name, library, work=work) for name in SPACES},
+            {name: make_space(name, library, blend=Blend.LINEAR, work=work) for name in SPACES},
             choose_stops(bench.pacing),
         )
 

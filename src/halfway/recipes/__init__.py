@@ -1,7 +1,7 @@
 """Recipes, what a person writes for them, and the mixing of recipes into tables."""
 
 from .blend import Blend
-from .mixing import Mixer, mix
+from .mixing import Mixer, aligned_mean, mix
 from .named import NamedBrdf, file_names
 from .opening import (
     ChangedLibraryWarning,
@@ -20,6 +20,7 @@ __all__ = [
     "Mixer",
     "NamedBrdf",
     "Recipe",
+    "aligned_mean",
     "file_names",
     "is_library",
     "mix",

@@ -1,28 +1,39 @@
-"""Mixing: the weighted sum of full tables that a recipe stands for.
+"""Mixing: the weighted mean of full tables that a recipe stands for.
 
-    s = sum_i a_i s_i       per channel, over all cells (eq. 7)
+    s = m^-1( sum_i a_i m(s_i) )       per channel, over all cells (eq. 7, where m is the identity)
 
 A cell is unmeasured in the mix where it is unmeasured in any ingredient. The weights are those of a recipe, none
 negative: a mix of sound materials is sound. The truncated PCA is something else: `Pca.reconstruct`.
+
+Where a blend aligns, each ingredient's gloss is first stretched to one width (`halfway.brdf.gloss`), the geometric mean of
+their widths, each weighted by its weight and the fourth root of the energy of its gloss: a material without a highlight has no say
+in how wide it is. A stretched gloss can reflect more than it did from some direction. So where the mix would reflect more
+than 1, and more than any of its ingredients does from there, the channel is scaled down to that.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from functools import lru_cache, partial
 from threading import Lock
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
+from jaxtyping import Float32, Float64
 
 from .._types import Table
-from ..brdf import TabularBrdf, require_isotropic
+from ..brdf import TabularBrdf, albedos, gloss, require_isotropic
 from ..errors import LibraryError, RecipeError
+from ..halfdiff import Grid
 from ..library import Library, open_library
 from .blend import Blend
+from .blend import Mapping as BlendMapping
 from .recipe import Recipe
 
 N_AT_ONCE = 8
-"""Mixes that numpy sums: compiled code is twice as fast, and takes a second to load."""
-_CHUNK = 1 << 15  # samples summed at once: the float64 sums stay in a core's cache
+"""Linear mixes that numpy sums: compiled code is twice as fast, and takes a second to load."""
+_CHUNK = 1 << 15  # samples summed at once: the sums stay in a core's cache
+_ALBEDO_ANGLES = np.radians([0.0, 20.0, 40.0, 60.0, 70.0, 80.0])
+"""From which a mix of stretched highlights reflects no more than it may."""
 
 
 class Mixer:
@@ -34,6 +45,8 @@ class Mixer:
         self._n_rows = n_rows
         # Not of a method: a mixer that is done with shall go at once, with its rows.
         self._row = lru_cache(n_rows)(partial(_row, library))
+        # Body and gloss are as large as a row, each.
+        self._parts = lru_cache(max(1, n_rows // 2))(partial(_Parts.of, library))
         self._lock = Lock()  # threads that want the same row compute it once
         self._n_mixed = 0
 
@@ -50,20 +63,55 @@ class Mixer:
             When the recipe names a material that the library does not have.
         """
         grid = self._library.grid
-        with self._lock:
-            rows = [self._row(name) for name in recipe.names]
-        values = np.empty((3, grid.size), np.float32)
-        self._n_mixed += 1
-        sum_of = _weighted_sum if self._n_mixed > N_AT_ONCE else _plain_sum
-        match recipe.blend:
-            case Blend.LINEAR:
-                for out, channel, weights in zip(values, range(3), recipe.weights, strict=True):
-                    used = np.flatnonzero(weights)
-                    sum_of(out, [rows[i][channel] for i in used], weights[used])
+        values = self._aligned(recipe) if _aligns(recipe) else self._pointwise(recipe)
         return TabularBrdf(values.reshape(3, *grid.shape), grid, name=_title(recipe))
 
+    def _pointwise(self, recipe: Recipe) -> Table:
+        with self._lock:
+            rows = [self._row(name) for name in recipe.names]
+        if len(rows) == 1:
+            return rows[0]
+        values = np.empty_like(rows[0])
+        self._n_mixed += 1
+        mean = partial(mean_of, mapping=recipe.blend.mapping)
+        if recipe.blend is Blend.LINEAR:
+            mean = _weighted_sum if self._n_mixed > N_AT_ONCE else _plain_sum
+        for out, channel, weights in zip(values, range(3), recipe.weights, strict=True):
+            used = np.flatnonzero(weights)
+            mean(out, [rows[i][channel] for i in used], weights[used])
+        return values
 
-def mix(library: Library | str, recipe: Recipe | Mapping[str, Any] | str) -> TabularBrdf:
+    def _aligned(self, recipe: Recipe) -> Table:
+        with self._lock:
+            parts = [self._parts(name) for name in recipe.names]
+        grid = self._library.grid
+        mapping = recipe.blend.mapping
+        values = aligned_mean([part.lobes for part in parts], recipe.weights, mapping, grid)
+        table = TabularBrdf(values.reshape(3, *grid.shape), grid)
+        limit = np.maximum(1, np.max([part.albedos for part in parts], axis=0))
+        share = np.min(limit / np.maximum(albedos(table, _ALBEDO_ANGLES), limit), axis=0)
+        return values * share.astype(np.float32)[:, None] if (share < 1).any() else values
+
+
+class _Parts(NamedTuple):
+    """What a blend that aligns takes of a material."""
+
+    lobes: gloss.Gloss
+    albedos: Float64[np.ndarray, "n_angles 3"]
+
+    @classmethod
+    def of(cls, library: Library, name: str) -> "_Parts":
+        row = _row(library, name)
+        table = TabularBrdf(row.reshape(3, *library.grid.shape), library.grid)
+        return cls(gloss.Gloss.of(row, library.grid), albedos(table, _ALBEDO_ANGLES))
+
+
+def mix(
+    library: Library | str,
+    recipe: Recipe | Mapping[str, Any] | str,
+    *,
+    blend: Blend | str = Blend.LINEAR,
+) -> TabularBrdf:
     """The table of a recipe, mixed from full tables of the library.
 
     Parameters
@@ -72,6 +120,8 @@ def mix(library: Library | str, recipe: Recipe | Mapping[str, Any] | str) -> Tab
         Open, or as `open_library` takes it.
     recipe : Recipe, mapping or str
         Or its weights: ``{"gold-paint": 0.7, "teflon": 0.3}``, ``"gold-paint=0.7, teflon=0.3"``.
+    blend : Blend or str
+        How weights are mixed; a recipe says so itself.
 
     Examples
     --------
@@ -83,20 +133,72 @@ def mix(library: Library | str, recipe: Recipe | Mapping[str, Any] | str) -> Tab
     Raises
     ------
     RecipeError
-        When the weights are no recipe, or of a material that the library does not have.
+        When the weights are no recipe, or of a material that the library does not have; or there is no such blend.
     """
     opened = open_library(library) if isinstance(library, str) else library
-    return Mixer(opened).mix(_to_recipe(opened, recipe))
+    return Mixer(opened).mix(_to_recipe(opened, recipe, Blend(blend)))
 
 
-def _to_recipe(library: Library, recipe: Recipe | Mapping[str, Any] | str) -> Recipe:
+def aligned_mean(
+    parts: Sequence[gloss.Gloss],
+    weights: Float64[np.ndarray, "3 n"],
+    mapping: BlendMapping,
+    grid: Grid,
+) -> Table:
+    """The weighted mean of materials whose glosses are stretched to one width, shape (3, p) with theta_h first."""
+    width = _mean_width(parts, weights)
+    stretches = [gloss.Stretch.by(width / part.width, grid) for part in parts]
+    _, n_rows, n = parts[0].body.shape
+    values = np.empty((3, n_rows, n), np.float32)
+    step = max(1, _CHUNK // n)
+    for channel in range(3):
+        used = np.flatnonzero(weights[channel]).tolist()
+        for start in range(0, n_rows, step):
+            part = slice(start, start + step)
+            total = np.zeros_like(values[channel, part])
+            for i in used:
+                lobe = stretches[i].rows(parts[i].gloss[channel], part)
+                lobe += parts[i].body[channel, part]
+                total += mapping.to(lobe) * np.float32(weights[channel, i])
+            values[channel, part] = mapping.back(total)
+    return values.reshape(3, -1)
+
+
+def mean_of(
+    out: Float32[np.ndarray, " p"],
+    rows: Sequence[Float32[np.ndarray, " p"]],
+    weights: Float64[np.ndarray, " n"],
+    *,
+    mapping: BlendMapping,
+) -> None:
+    """``out = m^-1(sum_i w_i m(row_i))``."""
+    for start in range(0, len(out), _CHUNK):
+        part = slice(start, start + _CHUNK)
+        total = np.zeros_like(out[part])
+        for row, weight in zip(rows, weights, strict=True):
+            total += mapping.to(row[part]) * np.float32(weight)
+        out[part] = mapping.back(total)
+
+
+def _mean_width(parts: Sequence[gloss.Gloss], weights: Float64[np.ndarray, "3 n"]) -> float:
+    shares = weights.mean(axis=0) * np.array([part.energy for part in parts]) ** 0.25
+    if not shares.any():
+        return 1.0
+    return float(np.exp(shares @ np.log([part.width for part in parts]) / shares.sum()))
+
+
+def _aligns(recipe: Recipe) -> bool:
+    return recipe.blend.aligns and len(recipe.names) > 1
+
+
+def _to_recipe(library: Library, recipe: Recipe | Mapping[str, Any] | str, blend: Blend) -> Recipe:
     match recipe:
         case Recipe():
             return recipe
         case str():
-            return Recipe.from_text(library, recipe)
+            return replace(Recipe.from_text(library, recipe), blend=blend)
         case _:
-            return Recipe.of(library, recipe)
+            return Recipe.of(library, recipe, blend)
 
 
 def _row(library: Library, name: str) -> Table:

@@ -14,6 +14,7 @@ import json
 import re
 import warnings
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -63,17 +64,24 @@ def split_address(word: str) -> list[str]:
     return [word[:end], word[end + 1 :]]
 
 
-def open_recipe(words: Sequence[str], *, library: str = "") -> tuple[Library, Recipe]:
+def open_recipe(
+    words: Sequence[str], *, library: str = "", blend: str | None = None
+) -> tuple[Library, Recipe]:
     """The recipe that ``[LIB] WHAT`` stands for, and its library; ``library`` is another to take it of.
 
     WHAT is weights ("gold-paint=0.7, teflon=0.3"), a recipe's JSON file, one of a route's (``recipes.json:25``), or the
-    name of a material.
+    name of a material. ``blend`` says how they are mixed, instead of what the file says; weights alone mix linearly.
 
     Raises
     ------
     RecipeError
         When the words stand for none.
     """
+    opened, recipe = _opened(words, library)
+    return opened, recipe if blend is None else replace(recipe, blend=Blend(blend))
+
+
+def _opened(words: Sequence[str], library: str) -> tuple[Library, Recipe]:
     where, rest = split_library(split_address(words[0]) if len(words) == 1 else words)
     if len(rest) != 1:
         raise RecipeError(
@@ -185,7 +193,7 @@ def _of_weights(where: str, text: str) -> tuple[Library, Recipe]:
             library.index(name)
         return library, recipe
     library = _with_files(library, recipe.names, files)
-    return library, Recipe(LibraryRef.of(library), recipe.names, recipe.weights)
+    return library, replace(recipe, library=LibraryRef.of(library))
 
 
 def _with_files(library: Library, names: Sequence[str], files: Sequence[str]) -> Library:

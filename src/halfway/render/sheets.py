@@ -11,7 +11,7 @@ from typing import TypeVar
 
 import numpy as np
 
-from ..recipes import NamedBrdf, file_names
+from ..recipes import Blend, NamedBrdf, file_names
 from ..tasks import HERE, Work
 from . import pictures
 from .basis import BasisPictures
@@ -153,7 +153,10 @@ def _pictures(
     libraries = {id(material.library): material.library for material in materials}
     names = {name for material in materials if material.recipe for name in material.recipe.names}
     (library, *others) = libraries.values()
-    if library is None or others or not renderer.linear or len(names) > len(materials):
+    pictures_mix = renderer.linear and all(
+        material.recipe and material.recipe.blend is Blend.LINEAR for material in materials
+    )
+    if library is None or others or not pictures_mix or len(names) > len(materials):
         return lambda material: renderer.picture(material.table())
     basis = BasisPictures(renderer, library.brdf, work=work)
 

@@ -19,7 +19,7 @@ from ..errors import OutputError, RecipeError, SpaceError
 from ..formats import MerlFile, encode_header, write_brdf
 from ..library import Library
 from ..look import Looks
-from ..recipes import Mixer, Recipe
+from ..recipes import Blend, Mixer, Recipe
 from ..render import SCENES, studio
 from ..space import PACES, SPACES, Embedding, Route, Scores, Space, lengths, make_space
 from ..space import route as route_through
@@ -61,7 +61,7 @@ class Explorer:
         self.pictures = Looks.fit(library, work=work)
         # The page opens with the first space; the others are made when they are asked for.
         first = next(iter(SPACES))
-        self._spaces = {first: make_space(first, library, work=work)}
+        self._spaces = {first: _shown(first, library, work)}
         self._making = Lock()
         self._block = lru_cache(N_TABLES)(partial(_block_of, library))
         self._leg = lru_cache(N_LEGS)(self._leg_of)
@@ -184,7 +184,7 @@ class Explorer:
         """The space called ``name``, made when it is first asked for."""
         with self._making:
             if name not in self._spaces:
-                self._spaces[name] = make_space(name, self.library, work=self._quiet)
+                self._spaces[name] = _shown(name, self.library, self._quiet)
             return self._spaces[name]
 
 
@@ -202,6 +202,12 @@ def leg_view(route: Route, pictures: Looks) -> LegView:
             "uniform": PaceView(t=[0.0, 1.0], length=[0.0, 1.0]),
         },
     )
+
+
+def _shown(name: str, library: Library, work: Work) -> Space:
+    """A space as the page has it: three scores, which can be looked at, and linear mixes, whose pictures it mixes."""
+    n_components = min(N_AXES, max(0, len(library) - 4)) if name == "anchored" else None
+    return make_space(name, library, n_components=n_components, blend=Blend.LINEAR, work=work)
 
 
 def _block_of(library: Library, name: str) -> Block:

@@ -21,29 +21,33 @@ A leg takes the largest b (of `SHARES`) whose path, in pictures of a lit sphere,
 the distance of its ends. ``detour`` = 1 gives the ends alone (or nearly), infinity the space alone.
 """
 
+from bisect import bisect_left
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from jaxtyping import Float64
 
-from ..components import Pca
+from ..components import MappedRows, Pca
 from ..errors import SpaceError
 from ..library import Library, LibraryRef
 from ..look import Looks, appearance, body_colours, cielab_difference
+from ..recipes import Blend
 from ..tasks import HERE, Work
 from .chart import Chart
 from .coordinates import Coordinates, Group, Numbers, Scores
 from .space import Space
 from .way import Way
 
+N_COMPONENTS = 4
+"""Joint scores: with three a material that is left out is placed worse, with five ways wander."""
 BODY_SPREAD = 0.3
 """Spread of the body colours, where that of the scores is 1."""
 DETOUR = 1.1
 """Largest length of a leg, as a multiple of the distance of its ends."""
 SHARES = np.linspace(1, 0, 17)
 """Shares of the Delaunay weights that a leg tries, from the largest."""
-N_PICTURES = 33
+N_PICTURES = 17
 """Pictures that a leg is measured in."""
 THINNING = 4
 """Every so many pixels of the looks are enough to measure with."""
@@ -57,35 +61,51 @@ class AnchoredSpace(Space):
     _looks: Looks
     name = "anchored"
     summary = "one recipe for all channels; keeps body colours on the straight way between them"
+    usual_blend = Blend.LOBES
 
     @classmethod
     def fit(
         cls,
         library: Library,
         *,
-        n_components: int = 3,
+        n_components: int | None = None,
         detour: float = DETOUR,
+        blend: Blend = Blend.LOBES,
         work: Work = HERE,
     ) -> "AnchoredSpace":
-        """The space of ``n_components`` joint scores and the body colours of the materials.
+        """The space of ``n_components`` joint scores and the body colours of the materials, in the mapping of a blend.
+
+        Without ``n_components`` it has `N_COMPONENTS`, or as many as the materials and their body colours leave.
 
         Raises
         ------
         SpaceError
             With fewer than 0 components, or a detour below 1.
         """
-        if n_components < 0:
-            raise SpaceError(
-                f"a space of {n_components} components cannot be made: expected 0 or more."
-            )
-        scores = Scores.joint(Pca.fit(library, work=work), n_components, spread=1.0)
-        groups = scores, body_group(body_colours(library, work=work))
-        looks = Looks.fit(library, work=work)
-        return cls.of(LibraryRef.of(library), Coordinates(groups), looks, detour=detour)
+        k = min(N_COMPONENTS, max(0, len(library) - 4)) if n_components is None else n_components
+        if k < 0:
+            raise SpaceError(f"a space of {k} components cannot be made: expected 0 or more.")
+        pca = Pca.fit(MappedRows(library, blend), work=work)
+        unit = blend.mapping.unit
+        scores = Scores.joint(pca, k, spread=1.0, unit=unit)
+        body = body_group(body_colours(library, blend=blend, work=work), unit=unit)
+        return cls.of(
+            LibraryRef.of(library),
+            Coordinates((scores, body)),
+            Looks.fit(library, work=work),
+            detour=detour,
+            blend=blend,
+        )
 
     @classmethod
     def of(
-        cls, library: LibraryRef, coordinates: Coordinates, looks: Looks, *, detour: float = DETOUR
+        cls,
+        library: LibraryRef,
+        coordinates: Coordinates,
+        looks: Looks,
+        *,
+        detour: float = DETOUR,
+        blend: Blend = Blend.LINEAR,
     ) -> "AnchoredSpace":
         """The space of any linear ``coordinates`` of the materials, which ``looks`` shows.
 
@@ -99,18 +119,19 @@ class AnchoredSpace(Space):
                 f"a detour of {detour:g} is shorter than the direct way: expected 1 or more."
             )
         chart = Chart.of(coordinates)
-        return cls(library, looks.names, (chart,), detour, looks.thinned(THINNING))
+        return cls(library, looks.names, (chart,), detour, looks.thinned(THINNING), blend=blend)
 
     def leg(self, start: int, stop: int) -> Way:
         (chart,) = self.charts
         winding = chart.way(start, stop)
         straight = Way.between(start, stop, len(self.names)).at(winding.knots)
-        for share in SHARES:
+
+        def leg(i: int) -> Way:
+            share = SHARES[i]
             way = Way(winding.knots, share * winding.weights + (1 - share) * straight)
-            leg = Way.of_channels([way])
-            if share == 0 or self._is_short(leg):
-                return leg
-        raise AssertionError  # the last share is 0
+            return Way.of_channels([way])
+
+        return leg(bisect_left(range(len(SHARES) - 1), True, key=lambda i: self._is_short(leg(i))))
 
     def to_json(self) -> dict[str, Any]:
         """The names of the coordinates, the point of each material, and the longest detour."""
@@ -123,7 +144,7 @@ class AnchoredSpace(Space):
         return bool(length <= self.detour * cielab_difference(pictures[0], pictures[-1]))
 
 
-def body_group(body: Float64[np.ndarray, "N 3"]) -> Group:
-    """Body colours, in 1/sr, as coordinates."""
+def body_group(body: Float64[np.ndarray, "N 3"], *, unit: str = "1/sr") -> Group:
+    """Body colours as coordinates."""
     names = ("body_r", "body_g", "body_b")
-    return Numbers(label="Body colour", names=names, points=body, spread=BODY_SPREAD)
+    return Numbers(label="Body colour", names=names, points=body, spread=BODY_SPREAD, unit=unit)

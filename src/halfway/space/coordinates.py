@@ -79,10 +79,12 @@ class Scores(Group):
     channels: tuple[int, ...] = (0, 1, 2)
 
     @classmethod
-    def joint(cls, pca: Pca, n: int, *, spread: float | None = None) -> "Scores":
+    def joint(
+        cls, pca: Pca, n: int, *, spread: float | None = None, unit: str = "1/sr"
+    ) -> "Scores":
         """The first ``n`` scores of all channels together: as many as there are."""
         points = pca.joint_scores(n)
-        return cls(names=_score_names(points), points=points, spread=spread, pca=pca)
+        return cls(names=_score_names(points), points=points, spread=spread, unit=unit, pca=pca)
 
     @classmethod
     def of_channel(cls, pca: Pca, n: int, channel: int) -> "Scores":

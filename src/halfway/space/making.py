@@ -7,6 +7,7 @@ from ..components import Pca
 from ..errors import SpaceError
 from ..library import Library, open_library
 from ..look import Looks
+from ..recipes import Blend
 from ..tasks import HERE, Work
 from .anchored import DETOUR, AnchoredSpace
 from .pace import perceptual
@@ -26,41 +27,52 @@ def make_space(
     name: str,
     library: Library,
     *,
-    n_components: int = 3,
+    n_components: int | None = None,
     detour: float = DETOUR,
+    blend: Blend | str | None = None,
     work: Work = HERE,
 ) -> Space:
     """The space called ``name``, fitted to ``library``.
 
     Parameters
     ----------
-    n_components : int
-        Scores that span the space.
+    n_components : int, optional
+        Scores that span the space; without it 4 in the anchored space, or as many as few materials span, and 3 in the paper's.
     detour : float
         Longest way of the anchored space, as a multiple of the direct one.
+    blend : Blend or str, optional
+        How its recipes are mixed; without it ``lobes`` in the anchored space, ``linear`` in the others.
 
     Raises
     ------
     SpaceError
         When there is no such space.
+    RecipeError
+        When there is no such blend.
     """
+    if name not in SPACES:
+        raise SpaceError(f"there is no space {name!r}: expected one of {', '.join(SPACES)}.")
+    kind = SPACES[name]
+    mixed = Blend(blend or kind.usual_blend)
     match name:
         case "anchored":
-            return AnchoredSpace.fit(library, n_components=n_components, detour=detour, work=work)
+            return AnchoredSpace.fit(
+                library, n_components=n_components, detour=detour, blend=mixed, work=work
+            )
         case "paper":
-            return PaperSpace.fit(library, Pca.fit(library, work=work), n_components=n_components)
-        case "linear":
-            return LinearSpace.of(library)
+            pca = Pca.fit(library, work=work)
+            return PaperSpace.fit(library, pca, n_components=n_components, blend=mixed)
         case _:
-            raise SpaceError(f"there is no space {name!r}: expected one of {', '.join(SPACES)}.")
+            return LinearSpace.of(library, blend=mixed)
 
 
 def route(
     library: Library | str,
     *stops: str,
     space: Space | str = "anchored",
+    blend: Blend | str | None = None,
     pace: str = "perceptual",
-    n_components: int = 3,
+    n_components: int | None = None,
     detour: float = DETOUR,
     work: Work = HERE,
 ) -> Route:
@@ -77,7 +89,7 @@ def route(
         or one that was made.
     pace : str
         ``perceptual``, equal visible steps; ``uniform``, the paper's.
-    n_components, detour
+    blend, n_components, detour
         As `make_space` takes them.
     work : Work
         Where its tasks run, who sees how far it is, and where dear results are kept.
@@ -100,10 +112,11 @@ def route(
     if pace not in PACES:
         raise SpaceError(f"there is no pace {pace!r}: expected {' or '.join(PACES)}.")
     # A mistake is told before a space is fitted.
+    Blend(blend or Blend.LINEAR)
     for stop in stops:
         opened.index(stop)
     Route.through(LinearSpace.of(opened), stops)
-    fit = partial(make_space, n_components=n_components, detour=detour, work=work)
+    fit = partial(make_space, n_components=n_components, detour=detour, blend=blend, work=work)
     fitted = fit(space, opened) if isinstance(space, str) else space
     way = Route.through(fitted, stops)
     return perceptual(way, Looks.fit(opened, work=work)) if pace == "perceptual" else way

@@ -18,7 +18,8 @@ from ..recipes import Blend, Recipe
 from .space import Space
 from .way import Way
 
-FORMAT = 1
+FORMAT = 2
+"""Of recipes.json; 1 had no blend, and was linear."""
 
 
 @dataclass(frozen=True, eq=False)

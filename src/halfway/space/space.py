@@ -47,6 +47,8 @@ class Space(ABC):
     """What the space is called on the command line and in JSON."""
     summary: ClassVar[str]
     """One line on what it is."""
+    usual_blend: ClassVar[Blend] = Blend.LINEAR
+    """How its recipes are mixed unless a person says otherwise."""
 
     def __repr__(self) -> str:
         return f"<{type(self).__name__} of {len(self.names)} materials of {self.library.name!r}>"
@@ -63,6 +65,12 @@ class Space(ABC):
             for chart in self.charts
             for name in chart.coordinates.names
         )
+
+    @property
+    def unit(self) -> str:
+        """Of the coordinates: that of a BRDF value in the mapping in which they are linear."""
+        units = {group.unit for chart in self.charts for group in chart.coordinates.groups}
+        return ", ".join(sorted(units)) or "1/sr"
 
     @property
     def points(self) -> Float64[np.ndarray, "N d"]:
@@ -151,7 +159,7 @@ class Space(ABC):
             "library": self.library.name,
             "space": self.name,
             "coordinates": list(self.coordinates),
-            "unit": "1/sr",
+            "unit": self.unit,
             "points": dict(zip(self.names, self.points.tolist(), strict=True)),
         }
 

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from ..components import Pca
 from ..errors import SpaceError
 from ..library import Library, LibraryRef
+from ..recipes import Blend
 from .chart import Channel, Chart
 from .coordinates import Coordinates, Scores
 from .space import Space
@@ -32,21 +33,27 @@ class PaperSpace(Space):
     summary = "one triangulation per channel, of its first three scores"
 
     @classmethod
-    def fit(cls, library: Library, pca: Pca, *, n_components: int = 3) -> "PaperSpace":
+    def fit(
+        cls,
+        library: Library,
+        pca: Pca,
+        *,
+        n_components: int | None = None,
+        blend: Blend = Blend.LINEAR,
+    ) -> "PaperSpace":
         """The space of the first ``n_components`` scores (1 to 6; the paper uses 3)."""
-        if not 1 <= n_components <= 6:
+        k = 3 if n_components is None else n_components
+        if not 1 <= k <= 6:
             raise SpaceError(
-                f"a space of {n_components} components cannot be made: expected 1 to 6 "
+                f"a space of {k} components cannot be made: expected 1 to 6 "
                 "(a triangulation of 100 points has 530 simplices in 3 dimensions, 20,000 in 6)."
             )
-        walked = len(library) * SIMPLICES_PER_POINT[n_components - 1] > MOST_SIMPLICES
+        walked = len(library) * SIMPLICES_PER_POINT[k - 1] > MOST_SIMPLICES
         charts = tuple(
-            Chart.of(
-                Coordinates((Scores.of_channel(pca, n_components, i),)), channel, walked=walked
-            )
+            Chart.of(Coordinates((Scores.of_channel(pca, k, i),)), channel, walked=walked)
             for i, channel in enumerate(CHANNELS)
         )
-        return cls(LibraryRef.of(library), library.names, charts)
+        return cls(LibraryRef.of(library), library.names, charts, blend=blend)
 
     def leg(self, start: int, stop: int) -> Way:
         return Way.of_channels([chart.way(start, stop) for chart in self.charts])
@@ -60,9 +67,9 @@ class LinearSpace(Space):
     summary = "the two end materials in plain proportion"
 
     @classmethod
-    def of(cls, library: Library) -> "LinearSpace":
+    def of(cls, library: Library, *, blend: Blend = Blend.LINEAR) -> "LinearSpace":
         """The linear space of a library."""
-        return cls(LibraryRef.of(library), library.names, ())
+        return cls(LibraryRef.of(library), library.names, (), blend=blend)
 
     def leg(self, start: int, stop: int) -> Way:
         return Way.of_channels([Way.between(start, stop, len(self.names))])

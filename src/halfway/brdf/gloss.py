@@ -1,0 +1,127 @@
+"""Body and gloss of a table: what is in its highlight, and how wide the highlight is.
+
+Along theta_h, for each channel and each theta_d and phi_d,
+
+    f       |\\
+            | \\            gloss = share x (lowest f from the normal to here - lowest f of all)
+            |  \\___        body  = f - gloss
+            |      ---___/
+            +-------------- theta_h
+
+so body and gloss are non-negative, and what rises towards grazing or the light's own direction is body. A highlight is
+known by its slopes, u = tan theta_h: one distribution of microfacets is another one's, s times as wide, where
+
+    f'(u) cos^4 theta_h' = f(u / s) cos^4 theta_h / s^2
+
+which keeps the energy that a rough surface of such facets reflects, up to shadowing (so it is for the lobes of Beckmann and
+of Trowbridge and Reitz: B. Walter et al., "Microfacet Models for Refraction through Rough Surfaces", EGSR 2007, equations 25
+and 33). The width is the geometric mean of the slopes, weighted by the squared height of the lobe: what the eye takes for the
+highlight, whatever its tails. What hardly stands out of the body, such as the broad lobe of a felt, is no highlight, and has the
+body's colours: the share of the lobe that is gloss rises from 0 to 1 where the lobe is `FAINT` to `CLEAR` of the value
+that the table has in the mirror direction.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from jaxtyping import Float32, Float64, Int
+
+from .._types import Table
+from ..halfdiff import Axis, Grid
+
+FAINT, CLEAR = 0.2, 0.5
+"""Shares of the value in the mirror direction up to which a lobe is body, and from which it is gloss."""
+STEEP_DEGREES = 60.0
+"""The width is read where theta_d is smaller: beyond, shadowing and edges of the measurement bend the lobe."""
+
+Lobes = Float32[np.ndarray, "3 n_theta_h n"]
+
+
+class Gloss(NamedTuple):
+    """The parts of one table, with theta_h as the first of the grid's axes and the others in one."""
+
+    body: Lobes
+    """1/sr; NaN where the table is unmeasured."""
+    gloss: Lobes
+    """1/sr; unmeasured cells have what their neighbour nearer to the normal has."""
+    width: float
+    """Of the highlight, as a slope; 1 where there is none."""
+    energy: float
+    """Of the gloss, summed over the channels, in no unit: how much there is of it beside another's."""
+
+    @classmethod
+    def of(cls, values: Table, grid: Grid) -> "Gloss":
+        """The parts of a table, shape (3, *grid.shape) or (3, p)."""
+        lobes = to_lobes(values, grid)
+        lowest = np.fmin.accumulate(lobes, axis=1)
+        np.nan_to_num(lowest, copy=False, nan=0.0)
+        gloss = lowest - lowest[:, -1:]
+        steepness = _steepness(grid)
+        profile = (gloss.sum(axis=0) @ steepness).astype(np.float64)
+        width, energy = _width(profile, grid)
+        peak = float(lowest[:, 0].sum(axis=0) @ steepness)
+        share = np.clip((profile[0] / (peak or 1.0) - FAINT) / (CLEAR - FAINT), 0, 1)
+        gloss *= np.float32(share)
+        return cls(np.maximum(lobes - gloss, 0), gloss, width, energy * float(share))
+
+
+class Stretch(NamedTuple):
+    """A gloss made wider or narrower: where each of its rows comes from, and how its values change."""
+
+    lower: Int[np.ndarray, " n_theta_h"]
+    fraction: Float32[np.ndarray, "n_theta_h 1"]
+    factor: Float32[np.ndarray, "n_theta_h 1"]
+
+    @classmethod
+    def by(cls, scale: float, grid: Grid) -> "Stretch":
+        """To ``scale`` times the width."""
+        axis = _theta_h(grid)
+        theta = axis.centres()
+        source = np.arctan(np.tan(theta) / scale)
+        position = axis.to_position(source) - 0.5
+        lower = np.clip(np.floor(position), 0, max(axis.size - 2, 0)).astype(np.intp)
+        fraction = np.clip(position - lower, 0, 1)
+        factor = (np.cos(source) / np.cos(theta)) ** 4 / scale**2
+        return cls(lower, *(x.astype(np.float32)[:, None] for x in (fraction, factor)))
+
+    def rows(
+        self, gloss: Float32[np.ndarray, "n_theta_h n"], part: slice
+    ) -> Float32[np.ndarray, "n_rows n"]:
+        """Some rows of a gloss, stretched."""
+        lower, fraction = self.lower[part], self.fraction[part]
+        upper = np.minimum(lower + 1, len(gloss) - 1)
+        stretched = gloss[lower] * (1 - fraction)
+        stretched += gloss[upper] * fraction
+        stretched *= self.factor[part]
+        return stretched
+
+
+def to_lobes(values: Table, grid: Grid) -> Lobes:
+    """A table with theta_h first among the grid's axes, and the others in one; a view where they lie so."""
+    first = [axis.angle for axis in grid.axes].index("theta_h")
+    lobes = np.moveaxis(values.reshape(3, *grid.shape), 1 + first, 1)
+    return lobes.reshape(3, grid.axes[first].size, -1)
+
+
+def _theta_h(grid: Grid) -> Axis:
+    return next(axis for axis in grid.axes if axis.angle == "theta_h")
+
+
+def _steepness(grid: Grid) -> Float32[np.ndarray, " n"]:
+    """What each lobe weighs in a profile over theta_h: its share of the theta_d that are steep."""
+    theta_d = grid.centres().theta_d
+    weight = np.where(theta_d < np.radians(STEEP_DEGREES), np.sin(theta_d) * np.cos(theta_d), 0)
+    whole = np.broadcast_to(weight, (3, *grid.shape)).astype(np.float32)
+    return np.ascontiguousarray(to_lobes(whole, grid)[0, 0])
+
+
+def _width(profile: Float64[np.ndarray, " n_theta_h"], grid: Grid) -> tuple[float, float]:
+    """The geometric mean of the slopes of a lobe, and its energy."""
+    axis = _theta_h(grid)
+    theta, step = axis.centres(), np.diff(axis.edges())
+    slopes = np.tan(theta)
+    weight = (profile * np.cos(theta) ** 4) ** 2 * slopes / np.cos(theta) ** 2 * step
+    energy = float((profile * np.sin(theta) * np.cos(theta) * step).sum())
+    if not weight.sum() > 0:
+        return 1.0, 0.0
+    return float(np.exp((weight * np.log(slopes)).sum() / weight.sum())), energy
