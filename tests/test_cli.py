@@ -199,7 +199,6 @@ def test_a_route_is_anchored_and_paced_unless_asked_otherwise(run, lib):
 def test_places_neighbours_and_free_points(run, lib, tmp_path):
     places = json.loads(run("space", lib, "--json")[1])
     assert places["coordinates"][-3:] == ["body_r", "body_g", "body_b"]
-    assert len(run("space", lib, "--near", "material-2", "-n", "3")[1].splitlines()) == 3
     point = ",".join(map(str, places["points"]["material-2"]))
     assert run("mix", lib, f"--point={point}", "-o", "there.binary")[0] == 0
     there, own = (read_merl(tmp_path / f) for f in ("there.binary", "measured/material-2.binary"))
@@ -207,6 +206,36 @@ def test_places_neighbours_and_free_points(run, lib, tmp_path):
     code, _, talk = run("mix", lib, "--point=1e9,0,0,0,0,0", "-o", "far.binary")
     assert (code, "--clamp takes it" in talk) == (1, True)
     assert run("mix", lib, "--point=1e9,0,0,0,0,0", "--clamp", "-o", "far.binary")[0] == 0
+
+
+def test_a_material_of_ones_own_is_placed_in_the_space(run, lib):
+    """A file is where the material is that it holds, under a header, and what is no mix is said."""
+    points = json.loads(run("space", lib, "--json")[1])["points"]
+    header, line, measure, *nearest = run("space", lib, "--near", "measured/material-2.binary", "-n", "3")[1].splitlines()  # fmt: skip
+    assert header.split()[-2:] == ["body_b", "material"]
+    assert_allclose([float(x) for x in line.split()[:-1]], points["material-2"], rtol=1e-4)
+    assert (measure.split(), nearest[0].split()[1]) == (["distance", "material"], "material-2")
+    assert len(nearest) == 3
+    _, line, measure, first, *_ = run("space", lib, "--near", "material-2")[1].splitlines()
+    assert_allclose([float(x) for x in line.split()[:-1]], points["material-2"], rtol=1e-4)
+    assert "material-2" not in first
+    half = json.loads(run("space", lib, "--near", "material-1=.5,material-2=.5", "--json")[1])
+    middle = np.mean([points["material-1"], points["material-2"]], axis=0)
+    assert_allclose(half["near"]["point"], middle, rtol=1e-5)
+    assert half["near"]["inside"] is True
+    code, _, talk = run("space", lib, "--near", "material-22")
+    assert (code, "did you mean material-2" in talk) == (1, True)
+
+
+def test_a_table_that_is_no_mix_is_said_to_be_outside(run, lib, tmp_path):
+    bright = read_merl(tmp_path / "measured/material-2.binary")
+    write_merl(tmp_path / "bright.binary", TabularBrdf(10 * bright.values, bright.grid))
+    _, line, mix, *_ = run("space", lib, "--near", "bright.binary")[1].splitlines()
+    assert mix.endswith("(the nearest mix: it is outside the hull)")
+    assert line.split()[:6] != mix.split()[:6]
+    near = json.loads(run("space", lib, "--near", "bright.binary", "--json")[1])["near"]
+    assert near["inside"] is False
+    assert_allclose([float(x) for x in mix.split()[:6]], near["mix"], rtol=1e-4)
 
 
 def test_check_tells_sound_from_broken_and_repair_mends(run, tmp_path):

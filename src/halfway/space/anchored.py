@@ -126,4 +126,6 @@ class AnchoredSpace(Space):
 def body_group(body: Float64[np.ndarray, "N 3"]) -> Group:
     """Body colours, in 1/sr, as coordinates."""
     names = ("body_r", "body_g", "body_b")
-    return Numbers(label="Body colour", names=names, points=body, spread=BODY_SPREAD)
+    return Numbers(
+        label="Body colour", names=names, points=body, spread=BODY_SPREAD, read=body_colours
+    )
