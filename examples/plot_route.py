@@ -6,7 +6,6 @@ From brown cherry wood to dark tungsten carbide. The paper's space (above) passe
 """
 
 import matplotlib.pyplot as plt
-import numpy as np
 
 import halfway
 from halfway.look import Looks
@@ -21,7 +20,7 @@ looks = Looks.fit(library)
 frames = []
 for name in ("paper", "anchored"):
     route = halfway.route(library, "cherry-235", "tungsten-carbide", space=name)
-    frames += [looks.picture(recipe) for recipe in route.recipes(np.linspace(0, 1, 9))]
+    frames += [looks.picture(recipe) for recipe in route.recipes(route.steps(9))]
 
 figure, ax = plt.subplots(figsize=(9, 2.2), layout="constrained")
 ax.imshow(pictures.sheet(frames, columns=9))

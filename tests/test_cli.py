@@ -199,7 +199,6 @@ def test_a_route_is_anchored_and_paced_unless_asked_otherwise(run, lib):
 def test_places_neighbours_and_free_points(run, lib, tmp_path):
     places = json.loads(run("space", lib, "--json")[1])
     assert places["coordinates"][-3:] == ["body_r", "body_g", "body_b"]
-    assert len(run("space", lib, "--near", "material-2", "-n", "3")[1].splitlines()) == 3
     point = ",".join(map(str, places["points"]["material-2"]))
     assert run("mix", lib, f"--point={point}", "-o", "there.binary")[0] == 0
     there, own = (read_merl(tmp_path / f) for f in ("there.binary", "measured/material-2.binary"))
@@ -207,6 +206,38 @@ def test_places_neighbours_and_free_points(run, lib, tmp_path):
     code, _, talk = run("mix", lib, "--point=1e9,0,0,0,0,0", "-o", "far.binary")
     assert (code, "--clamp takes it" in talk) == (1, True)
     assert run("mix", lib, "--point=1e9,0,0,0,0,0", "--clamp", "-o", "far.binary")[0] == 0
+
+
+def test_a_material_of_ones_own_is_placed_in_the_space(run, lib):
+    """A file is where the material is that it holds, under a header, and what is no mix is said."""
+    points = json.loads(run("space", lib, "--json")[1])["points"]
+    header, line, measure, *nearest = run("space", lib, "--near", "measured/material-2.binary", "-n", "3")[1].splitlines()  # fmt: skip
+    assert header.split()[-2:] == ["body_b", "material"]
+    assert_allclose([float(x) for x in line.split()[:-1]], points["material-2"], rtol=1e-4)
+    assert (measure.split(), nearest[0].split()[1]) == (["distance", "material"], "material-2")
+    assert len(nearest) == 3
+    _, line, measure, first, *_ = run("space", lib, "--near", "material-2")[1].splitlines()
+    assert_allclose([float(x) for x in line.split()[:-1]], points["material-2"], rtol=1e-4)
+    assert "material-2" not in first
+    half = json.loads(
+        run("space", lib, "--blend", "linear", "--near", "material-1=.5,material-2=.5", "--json")[1]
+    )
+    middle = np.mean([half["points"]["material-1"], half["points"]["material-2"]], axis=0)
+    assert_allclose(half["near"]["point"], middle, rtol=1e-5)
+    assert half["near"]["inside"] is True
+    code, _, talk = run("space", lib, "--near", "material-22")
+    assert (code, "did you mean material-2" in talk) == (1, True)
+
+
+def test_a_table_that_is_no_mix_is_said_to_be_outside(run, lib, tmp_path):
+    bright = read_merl(tmp_path / "measured/material-2.binary")
+    write_merl(tmp_path / "bright.binary", TabularBrdf(10 * bright.values, bright.grid))
+    _, line, mix, *_ = run("space", lib, "--near", "bright.binary")[1].splitlines()
+    assert mix.endswith("(the nearest mix: it is outside the hull)")
+    assert line.split()[:6] != mix.split()[:6]
+    near = json.loads(run("space", lib, "--near", "bright.binary", "--json")[1])["near"]
+    assert near["inside"] is False
+    assert_allclose([float(x) for x in mix.split()[:6]], near["mix"], rtol=1e-4)
 
 
 def test_check_tells_sound_from_broken_and_repair_mends(run, tmp_path):
@@ -291,7 +322,7 @@ def test_a_name_cannot_tell_the_terminal_what_to_do(run, tmp_path):
 
 def test_a_suffix_may_be_in_capitals(run, lib, tmp_path):
     assert run("convert", f"{lib}:material-1", "ONE.BINARY")[0] == 0
-    assert run("convert", f"{lib}:material-1", "ONE.BSDF")[0] == 0
+    assert run("convert", "teflon", "ONE.BSDF")[0] == 0
     assert (tmp_path / "ONE.BSDF").read_bytes().startswith(b"tensor_file")
 
 
@@ -325,15 +356,13 @@ def test_convert_and_info(run, lib, tmp_path):
 
 
 def test_fit_says_how_far_off_it_is_and_writes_what_the_suffix_names(run, tmp_path):
-    code, out, _ = run("fit", "teflon", "-o", "teflon.glb")
-    assert (code, out.startswith("teflon, as glTF 2.0 metallic-roughness: ")) == (0, True)
-    assert (tmp_path / "teflon.glb").read_bytes().startswith(b"glTF")
-    (document,) = json.loads(run("fit", "teflon", "--model", "gltf", "--json")[1])
+    code, out, _ = run("fit", "teflon", "--model", "principled", "-o", "teflon.json")
+    assert (code, out.startswith("teflon, as Mitsuba principled: ")) == (0, True)
+    (document,) = json.loads(run("fit", "teflon", "--model", "principled", "--json")[1])
     assert f"{document['error']['psnr']:.1f} dB" in out
-    assert run("convert", "teflon", "teflon.gltf")[0] == 0
-    (material,) = json.loads((tmp_path / "teflon.gltf").read_text())["materials"]
-    colour = material["pbrMetallicRoughness"]["baseColorFactor"]
-    assert colour[:3] == document["parameters"]["base_color"]
+    assert json.loads((tmp_path / "teflon.json").read_text()) == document
+    assert run("convert", "teflon", "teflon.glb")[0] == 0
+    assert (tmp_path / "teflon.glb").read_bytes().startswith(b"glTF")
 
 
 def test_report_prints_table_1_and_writes_figures(run, lib, tmp_path):
@@ -364,10 +393,10 @@ def test_report_prints_table_1_and_writes_figures(run, lib, tmp_path):
         (["route", "nowhere.brdflib", "a", "b"], "there is no library 'nowhere.brdflib'"),
         (["route", "teflon"], "a route with 1 stop goes nowhere"),
         (["route", "teflon", "chrome", "-n", "1"], "expected -n 2 or more"),
-        (["route", "teflon", "chrome", "--t", "0,much"], "--t 'much' is no number and no range"),
-        (["route", "teflon", "chrome", "--t", "0,2"], "t = 2 is off the route"),
-        (["route", "teflon", "chrome", "--t", "0,nan"], "t = nan is off the route"),
-        (["route", "teflon", "chrome", "--t", "inf,0"], "t = inf is off the route"),
+        (
+            ["route", "teflon", "chrome", "--t", "0,much"],
+            "--t 'much' is no finite number and no range",
+        ),
         (
             ["route", "teflon", "chrome", "--t", "0:1:1e-9"],
             "a route of 1,000,000,000 materials is too long: expected 100,000 or fewer.",
@@ -418,10 +447,14 @@ def test_lists_of_t(text, ts):
     assert arguments.parse_t(text) == ts
 
 
-def test_a_mistake_in_a_route_is_told_before_a_space_is_fitted(run, lib, monkeypatch):
-    monkeypatch.setattr("halfway.space.make_space", None)
-    code, _, talk = run("route", lib, "material-0", "material-1", "--t", "0,2")
-    assert (code, "t = 2 is off the route" in talk) == (1, True)
+@pytest.mark.parametrize(
+    ("t", "told"),
+    [("2", "t = 2 is off the route"), ("nan", "'nan' is no finite number"), ("inf", "'inf' is no")],
+)
+def test_a_mistake_in_a_route_is_told_before_a_space_is_fitted(run, lib, monkeypatch, t, told):
+    monkeypatch.setattr("halfway.space.AnchoredSpace.fit", None)
+    code, _, talk = run("route", lib, "material-0", "material-1", "--t", f"0,{t}")
+    assert (code, told in talk) == (1, True)
 
 
 def test_the_papers_fine_list_of_t():

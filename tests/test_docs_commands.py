@@ -1,4 +1,4 @@
-"""Every command and every Python block that README and the documentation show does what it says.
+"""Every command, every Python block and every example that README and the documentation show does what it says.
 
 All of them run in-process, page by page in an empty folder, on the built-in library at a coarse grid and with small
 pictures; what cannot is in `NOT_RUN`, with its reason. Every command of ours, run or not, must have the options that it shows.
@@ -10,6 +10,7 @@ import sys
 from functools import partial
 from pathlib import Path
 
+import matplotlib.pyplot as plt
 import nbformat
 import pytest
 import typer
@@ -36,6 +37,8 @@ NOT_RUN = {
     r"^halfway reproduce": "takes a minute (tested in test_paper)",
     r"^halfway .*--pairs": "takes minutes (tested in test_cli)",
     r"^halfway .*--for pbrt-v2": "takes the database's grid alone (tested in test_export_scenes)",
+    r"^halfway library build builtin:synthetic-2000": "takes ten seconds (another page builds 200 of them)",
+    r"^halfway .*--turntable": "sets up a scene for each side (tested in test_render_pictures)",
     r"\.mp4": "needs an extra",
 }
 """Which commands are not run here, and why."""
@@ -136,6 +139,15 @@ def test_the_example_notebook_runs_and_carries_no_outputs():
     code = [cell for cell in notebook.cells if cell.cell_type == "code"]
     assert all(not cell.outputs and cell.execution_count is None for cell in code)
     run([cell.source for cell in code], "explore.ipynb")
+
+
+@pytest.mark.parametrize(
+    "example", sorted((ROOT / "examples").glob("plot_*.py")), ids=lambda path: path.stem
+)
+def test_examples_of_the_gallery_run(example):
+    run([example.read_text()], example.name)
+    assert plt.get_fignums()
+    plt.close("all")
 
 
 def run(blocks, name):

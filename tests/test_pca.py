@@ -16,6 +16,7 @@ from halfway.components.gram_cache import kept_gram
 from halfway.components.sketch import sketch
 from halfway.errors import LibraryError
 from halfway.export.report import Report, table_row
+from halfway.formats import read_nbrdf_archive
 from halfway.halfdiff import Grid
 from halfway.library import ProceduralLibrary
 from halfway.models import synthetic
@@ -157,23 +158,19 @@ def test_the_relative_error_of_two_materials_by_hand():
     assert_allclose([everything.mean_relative_error, everything.rms_error], 0, atol=1e-6)
 
 
-@pytest.fixture(scope="module")
-def neural(shared_data):
-    return Report.of(
-        library := open_library(shared_data / "nbrdf" / "merl_nbrdf.zip"), Pca.fit(library)
-    )
+def test_table_1_on_the_neural_stand_in(shared_data):
+    """.214 .143 .056 .021 .015 .007 on the database's grid, within 4 % on this one; the paper's own are .212 .153 .063 .028 .020 .010."""
+    models = read_nbrdf_archive(shared_data / "nbrdf" / "merl_nbrdf.zip").models
+    library = ProceduralLibrary("neural", models, grid=Grid.merl(90, 45, 45))
+    table_1 = Report.of(library, Pca.fit(library)).table_1
+    found = [row.mean_relative_error for row in table_1]
+    assert [row.n_components for row in table_1] == [3, 5, 15, 30, 36, 45]
+    assert_allclose(found, [0.2139, 0.1426, 0.0563, 0.0214, 0.0147, 0.0074], rtol=0.04)
 
 
-def test_table_1_on_the_neural_stand_in(neural):
-    """.214 .143 .056 .021 .015 .007, each within 3 %; the paper's own are .212 .153 .063 .028 .020 .010."""
-    found = [row.mean_relative_error for row in neural.table_1]
-    assert [row.n_components for row in neural.table_1] == [3, 5, 15, 30, 36, 45]
-    assert_allclose(found, [0.2139, 0.1426, 0.0563, 0.0214, 0.0147, 0.0074], rtol=0.01)
-    assert_allclose(found, [0.214, 0.143, 0.056, 0.021, 0.015, 0.007], rtol=0.03, atol=0.0005)
-
-
-def test_the_report_says_what_is_a_stand_in(neural):
-    assert "not measurements" in neural.description
+def test_a_library_of_neural_fits_says_what_is_a_stand_in(shared_data):
+    library = open_library(shared_data / "nbrdf" / "merl_nbrdf.zip")
+    assert "not measurements" in library.origin.description
 
 
 def grown(n: int, grid=GRID, seed=0):

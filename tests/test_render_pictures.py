@@ -1,11 +1,14 @@
 """Tone mapping, strips, sheets and animations."""
 
+from functools import partial
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 from PIL import Image
 
 from halfway.errors import OutputError
+from halfway.recipes import NamedBrdf
 from halfway.render import Renderer, pictures, write_pictures
 
 
@@ -97,6 +100,45 @@ def test_an_unknown_suffix_is_refused_with_what_is_known(tmp_path, name):
         pictures.write(tmp_path / name, grey(0))
     with pytest.raises(OutputError, match=r"expected \.webp"):
         pictures.animate(tmp_path / name, [grey(0)])
+
+
+@pytest.fixture
+def two(small_library) -> list[NamedBrdf]:
+    names = ("material-1", "material-2")
+    return [NamedBrdf(name, partial(small_library.brdf, name), name, name) for name in names]
+
+
+def test_a_turntable_is_a_row_of_each_material(tmp_path, two):
+    renderer = Renderer("sphere", size=(24, 20), spp=1)
+    write_pictures(tmp_path / "strip.png", renderer, [two], most=8, n_turns=3)
+    with Image.open(tmp_path / "strip.png") as strip:
+        width, height = strip.size
+    assert width == 3 * 24 + 2 * 2
+    assert height > 2 * 20
+    renderer = Renderer("teapot", size=(24, 20), spp=1)
+    said = write_pictures(tmp_path / "around.webp", renderer, [two], n_turns=2)
+    assert said == "2 frames of the teapot scene"
+    with Image.open(tmp_path / "around.webp") as animation:
+        assert (animation.n_frames, animation.width) == (2, 2 * 24 + 2)
+
+
+def test_a_turntable_in_a_folder_goes_on_where_it_stopped(tmp_path, two):
+    renderer = Renderer("teapot", size=(24, 20), spp=4)
+    assert write_pictures(tmp_path / "all", renderer, [two[:1]], n_turns=2).startswith("2 pictures")
+    before = {path.name: path.read_bytes() for path in (tmp_path / "all").glob("*.png")}
+    assert sorted(before) == ["material-1-000.png", "material-1-001.png"]
+    assert len(set(before.values())) == 2
+    assert write_pictures(tmp_path / "all", renderer, [two[:1]], n_turns=2).endswith(", 2 kept")
+    # The first of four shows what the first of two does.
+    assert write_pictures(tmp_path / "all", renderer, [two[:1]], n_turns=4).endswith(", 1 kept")
+
+
+def test_materials_that_dress_a_scene_together_turn_together(tmp_path, two):
+    renderer = Renderer("trio", size=(24, 20), spp=1, bounces=1)
+    said = write_pictures(tmp_path / "a.gif", renderer, [[*two, two[0]]], n_turns=2)
+    assert said == "2 frames of the trio scene"
+    with Image.open(tmp_path / "a.gif") as animation:
+        assert animation.width == 24
 
 
 def test_nothing_to_show_is_refused(tmp_path):

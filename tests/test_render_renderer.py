@@ -1,6 +1,7 @@
 """Pictures of whole scenes."""
 
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -11,6 +12,8 @@ from halfway.errors import RenderError
 from halfway.halfdiff import Grid
 from halfway.render import SCENES, Renderer
 from halfway.render.exposure import Exposure
+from halfway.render.renderer import BACKGROUND
+from halfway.render.scenes import PointLight
 from halfway.render.studio import _on_the_ground, as_bright_as_the_studio, directions, studio
 from halfway.tasks import Work
 
@@ -119,6 +122,62 @@ def test_a_scene_of_three_takes_one_material_or_three():
         renderer.picture([RED, GREEN])
 
 
+def test_turning_camera_and_light_with_the_objects_changes_nothing():
+    light, eye = PointLight((3.0, -5.0, 6.0), 200.0), SCENES["trio"].camera
+    scene = replace(SCENES["trio"], points=(light,), ground=False, bounces=1)
+    around = {"at": turned(eye.at, 90), "target": turned(eye.target, 90)}
+    moved = replace(
+        scene,
+        camera=replace(eye, **around),
+        points=(replace(light, at=turned(light.at, 90)),),
+    )
+    options = {"size": (64, 48), "spp": 64}
+    still, other = Renderer(scene, **options), Renderer(moved, **options)
+    expected, found = still.picture(RED), other.turned(90).picture(RED)
+    assert np.abs(other.picture(RED) - expected).mean() > 0.3 * expected.mean()
+    # The same samples; a pixel on an edge falls to one side or the other.
+    assert np.quantile(np.abs(found - expected), 0.99) < 1e-3 * expected.max()
+
+
+def turned(at, degrees):
+    x, y, z = at
+    turn = (x + 1j * y) * np.exp(1j * np.radians(degrees))
+    return turn.real, turn.imag, z
+
+
+def test_a_white_sphere_is_not_seen_in_even_light(tmp_path):
+    """A white furnace: it reflects what is behind it."""
+    env = write_environment(tmp_path, [(128, 128, 128)] * 8)
+    before = {"env": env, "show_env": True, "size": (32, 32), "spp": 64}
+    picture = Renderer("spheres", **before).picture(lambertian(1, 1, 1))
+    # A pixel of 64 samples is off by 2 %; a hundred of them are not.
+    assert_allclose(picture, picture[0, 0, 0], rtol=0.1)
+    assert_allclose(picture[11:21, 11:21].mean(axis=(0, 1)), picture[0, 0, 0], rtol=0.01)
+    assert picture[0, 0, 0] > 10 * BACKGROUND
+    grey = Renderer("teapot", **before).picture(lambertian(0.5, 0.5, 0.5))
+    assert_allclose(grey[[0, -1]], picture[0, 0, 0], rtol=1e-3)  # no ground
+    assert grey[16, 16].max() < 0.7 * picture[0, 0, 0]
+
+
+def test_the_middle_of_an_environment_is_behind_the_objects(tmp_path):
+    """Of eight columns the two in the middle are red, on the left, and green; a camera of 10 degrees sees a quarter of one."""
+    dim, red, green = (3, 3, 3), (128, 0, 0), (0, 128, 0)
+    env = write_environment(tmp_path, [dim] * 3 + [red, green] + [dim] * 3)
+    picture = Renderer("sphere", env=env, show_env=True, size=(32, 32), spp=4).picture(BLACK)
+    left, right = picture[0, 0], picture[0, -1]
+    assert left[0] > 1.3 * left[1] > 10 * left[2]
+    assert right[1] > 1.3 * right[0] > 10 * right[2]
+    assert_array_equal(picture[16, 16], 0)
+
+
+def write_environment(folder, row):
+    """An environment of four rows of the same pixels, RGB with a common exponent of 1."""
+    path = folder / "light.hdr"
+    header = f"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 4 +X {len(row)}\n".encode()
+    path.write_bytes(header + bytes(x for pixel in row * 4 for x in (*pixel, 128)))
+    return path
+
+
 def test_a_mesh_stands_in_for_the_teapot(tmp_path):
     """A cube, y up, in place of the teapot."""
     corners = [(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)]
@@ -156,6 +215,10 @@ def test_a_sheet_shows_the_material_from_both_sides(tmp_path):
         ({"seed": -1}, "seed is -1: expected 0 to 4294967295"),
         ({"mesh": "none.ply"}, "there is no mesh none.ply: see where you are"),
         ({"mesh": "dragon.stl"}, r"mesh dragon.stl is of an unknown kind: expected .ply or .obj"),
+        (
+            {"scene": "spheres", "show_env": True},
+            "lit by 3 points, which are no environment to show",
+        ),
         ({"env": "sky.jpg"}, r"environment sky.jpg is of an unknown kind: expected .hdr or .exr"),
     ],
 )

@@ -1,4 +1,4 @@
-"""Spaces, routes and mixes: the laws of DESIGN section 5, on random and on real libraries."""
+"""Spaces, routes and mixes: the laws of docs/laws.md, on random and on built-in libraries."""
 
 from dataclasses import replace
 
@@ -9,9 +9,11 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 from strategies import convex_weights
 
-from halfway import LinearSpace, PaperSpace, Pca, Recipe, Route, mix, open_library
+from halfway import LinearSpace, PaperSpace, Pca, Recipe, Route, mix
 from halfway.errors import OutsideHullError, RecipeError, SpaceError
-from halfway.library import LibraryRef
+from halfway.halfdiff import Grid
+from halfway.library import LibraryRef, ProceduralLibrary
+from halfway.models import builtin
 from halfway.recipes import Mixer
 from halfway.recipes.mixing import N_AT_ONCE
 from halfway.space import make_space
@@ -200,7 +202,8 @@ def test_a_mixer_keeps_a_bounded_number_of_rows(small_library):
 
 def test_the_papers_fine_navigation_on_the_builtin_library():
     """At t = .0001, .0002 ... 1: ten thousand recipes, each convex, none far from its neighbour."""
-    library = open_library("builtin:merl-abc")
+    models = builtin("merl-abc").models
+    library = ProceduralLibrary("coarse", models, grid=Grid.merl(30, 20, 24))
     space = make_space("paper", library)
     route = Route.through(space, ["cherry-235", "tungsten-carbide"])
     weights = route.at(np.arange(1, 10_001) / 10_000)

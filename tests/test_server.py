@@ -14,6 +14,7 @@ from patience import PATIENCE
 
 from halfway.brdf import TabularBrdf
 from halfway.formats import write_merl
+from halfway.formats.rgl_writer import Resolution
 from halfway.halfdiff import Grid
 from halfway.library import ProceduralLibrary
 from halfway.recipes import Recipe, mix
@@ -189,7 +190,10 @@ def test_the_downloaded_file_is_the_written_one(
     assert answer.content == (tmp_path / "mixed.binary").read_bytes()
 
 
-def test_a_material_goes_home_to_mitsuba_too(client: TestClient) -> None:
+def test_a_material_goes_home_to_mitsuba_too(
+    client: TestClient, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("halfway.formats.rgl_writer.RESOLUTIONS", [Resolution(8, 8)])
     answer = client.post(
         "/api/export/bsdf", json={"library": "small", "weights": {"material-1": 1}}
     )

@@ -8,19 +8,22 @@ from numpy.testing import assert_allclose, assert_array_equal
 from strategies import convex_weights
 
 import halfway
-from halfway.components import Pca
+from halfway.brdf import TabularBrdf
+from halfway.components import Newcomer, Pca
 from halfway.errors import OutsideHullError, RecipeError, SpaceError
 from halfway.library import LibraryRef
 from halfway.look import Looks
-from halfway.recipes import Recipe
+from halfway.recipes import Blend, Recipe, mix
 from halfway.space import SPACES, AnchoredSpace, Coordinates, Numbers, Scores, Way, make_space
+from halfway.space.chart import ON_THE_HULL
 
 unit = st.floats(0, 1)
 
 
 @pytest.fixture(scope="module")
 def spaces(small_library):
-    return {name: make_space(name, small_library) for name in SPACES}
+    made = {name: make_space(name, small_library) for name in SPACES}
+    return made | {"root": make_space("anchored", small_library, blend=Blend.ROOT)}
 
 
 @pytest.fixture(params=["anchored", "paper"])
@@ -41,7 +44,54 @@ def test_the_point_of_a_mix_is_the_mix_of_the_points(spaces, w):
     for name in ("anchored", "paper"):
         space = spaces[name]
         position = space.at(w @ space.points)
-        assert_allclose(position.point, w @ space.points, atol=1e-8 * abs(space.points).max())
+        # On a face of the hull rounding may put it outside.
+        off = np.abs(position.point - w @ space.points)
+        assert (off <= ON_THE_HULL * np.ptp(space.points, axis=0)).all()
+
+
+@given(convex_weights(9))
+def test_a_table_stands_where_the_mix_does_that_it_is(spaces, small_library, w):
+    """Coordinates are linear functionals of the table, in the mapping of the blend."""
+    for name in ("root", "paper"):
+        space = spaces[name]
+        recipe = Recipe.from_dense(
+            small_library, small_library.names, np.stack([w] * 3), space.blend
+        )
+        newcomer = Newcomer(small_library, mix(small_library, recipe))
+        # Tables are float32.
+        expected = w @ space.points
+        assert_allclose(space.point_of(newcomer), expected, atol=4e-7 * abs(space.points).max())
+
+
+def test_the_scores_of_a_table_are_its_projections_on_the_components(small_library):
+    """Of one that is no mix, against the components themselves, which the package never forms."""
+    rows = np.stack([small_library.row(i) for i in range(9)]).reshape(9, -1).astype(float)
+    known = ~np.isnan(rows).any(axis=0)
+    rows = rows[:, known] - rows[:, known].mean(axis=0)
+    _, _, components = np.linalg.svd(rows, full_matrices=False)
+    own = np.full(known.shape, np.nan, np.float32)
+    own[known] = np.random.default_rng(5).random(known.sum())
+    table = TabularBrdf(own.reshape(3, *small_library.grid.shape), small_library.grid, name="own")
+    scores = Scores.joint(Pca.fit(small_library), 3).of(Newcomer(small_library, table))
+    centroid = np.stack([small_library.row(i) for i in range(9)]).mean(axis=0).ravel()[known]
+    expected = components[:3] @ (own[known] - centroid)
+    assert_allclose(np.abs(scores), np.abs(expected), rtol=1e-5)
+
+
+def test_where_a_table_is_unmeasured_it_counts_as_the_mean(small_library):
+    mean = np.mean([small_library.row(i) for i in range(9)], axis=0)
+    half = np.array(mean)
+    half[:, ::2] = np.nan
+    table = TabularBrdf(half.reshape(3, *small_library.grid.shape), small_library.grid)
+    with pytest.warns(UserWarning, match=r"unmeasured in \d\d\.\d% of what small is measured in"):
+        scores = Scores.joint(Pca.fit(small_library), 3).of(Newcomer(small_library, table, "scan"))
+    assert_allclose(scores, 0, atol=1e-5)
+
+
+def test_numbers_that_are_not_of_tables_are_known_of_the_library_alone(small_library):
+    weight = Numbers(label="Weight", names=("weight",), points=np.ones((9, 1)), unit="kg")
+    with pytest.raises(SpaceError, match="weight cannot be read off a table"):
+        weight.of(Newcomer(small_library, small_library.brdf("material-1")))
 
 
 def test_a_point_may_be_given_by_the_names_of_its_coordinates(space):

@@ -97,6 +97,10 @@ def opened(browser: Browser, **options: Any) -> Generator[Page]:
         yield context.new_page()
 
 
+WHOLE = (
+    "() => document.querySelector('.live').width >= document.querySelector('.material').clientWidth"
+)
+
 # From the drawing buffer, not a screenshot: neither scaled nor composited.
 DRAWN = """() => {
   const canvas = document.querySelector(".live");
@@ -129,6 +133,11 @@ class Explorer:
             "n => Number(document.querySelector('.material').dataset.samples) >= n",
             arg=samples,
         )
+
+    def wait_for_whole_picture(self, samples: int) -> None:
+        """Until the picture has all its pixels, and so many samples."""
+        self.page.wait_for_function(WHOLE)
+        self.wait_for_picture(samples)
 
     def wait_until_settled(self) -> None:
         """Until the picture has all its pixels and samples."""
@@ -181,6 +190,18 @@ def in_mitsuba(scene: Scene, brdf: TabularBrdf, like: np.ndarray, *, spp: int) -
     if not renderer.exact:
         pytest.skip("needs Mitsuba with LLVM, which looks tables up as they are")
     return renderer.picture(brdf)
+
+
+SIDE = 4
+"""Pixels along a square whose mean is compared: less noise, so fewer samples."""
+
+
+def squares(picture: np.ndarray) -> np.ndarray:
+    """Means over squares of pixels; what is over at the right and below is left out."""
+    height, width, depth = picture.shape
+    rows, columns = height // SIDE, width // SIDE
+    cut = picture[: SIDE * rows, : SIDE * columns].astype(float)
+    return cut.reshape(rows, SIDE, columns, SIDE, depth).mean(axis=(1, 3))
 
 
 @pytest.fixture

@@ -11,7 +11,7 @@ from halfway.formats import write_merl
 from halfway.library import ProceduralLibrary
 from halfway.recipes import Recipe, mix
 
-PAIR = "#space=linear&pace=uniform&stops=cherry-235,gold-paint"
+PAIR = "#space=linear&pace=uniform&stops=cherry-235,gold-paint&light=points"
 
 
 def test_the_first_picture_comes(explorer: Explorer) -> None:
@@ -22,7 +22,7 @@ def test_the_first_picture_comes(explorer: Explorer) -> None:
 
 def test_moving_t_changes_the_recipe_and_not_the_samples(explorer: Explorer) -> None:
     explorer.page.set_viewport_size({"width": 460, "height": 560})
-    explorer.open(PAIR + "&t=0.5&light=points")
+    explorer.open(PAIR + "&t=0.5")
     explorer.wait_until_settled()
     before = picture(explorer)
     explorer.set_t(0.25)
@@ -35,7 +35,7 @@ def test_moving_t_changes_the_recipe_and_not_the_samples(explorer: Explorer) -> 
 
 
 def test_at_a_stop_the_recipe_is_that_material(explorer: Explorer) -> None:
-    explorer.open("#space=paper&pace=uniform&stops=teflon,chrome,pink-felt&t=0.5")
+    explorer.open("#space=paper&pace=uniform&stops=teflon,chrome,pink-felt&t=0.5&light=points")
     explorer.page.wait_for_selector(".recipe .name")
     assert explorer.recipe == ["chrome"]
 
@@ -112,7 +112,7 @@ def test_another_link_in_the_same_window_is_followed(explorer: Explorer) -> None
 def test_the_downloaded_merl_file_is_the_written_one(
     explorer: Explorer, library: ProceduralLibrary, tmp_path: Path
 ) -> None:
-    explorer.open("#space=paper&stops=cherry-235,gold-paint&t=0.37")
+    explorer.open("#space=paper&stops=cherry-235,gold-paint&t=0.37&light=points")
     explorer.page.wait_for_selector(".recipe .name")
     with explorer.page.expect_download() as recipe_file:
         explorer.page.get_by_role("button", name="Recipe", exact=True).click()
@@ -125,7 +125,7 @@ def test_the_downloaded_merl_file_is_the_written_one(
 
 
 def test_the_picture_is_taken_home(explorer: Explorer) -> None:
-    explorer.open(PAIR + "&light=points")
+    explorer.open(PAIR)
     explorer.wait_for_picture(16)
     with explorer.page.expect_download() as picture_file:
         explorer.page.get_by_role("button", name="Picture").click()
@@ -212,7 +212,7 @@ def test_a_stop_that_is_removed_is_pointed_at_no_more(explorer: Explorer) -> Non
 
 def test_an_environment_is_chosen(explorer: Explorer) -> None:
     explorer.page.set_viewport_size({"width": 460, "height": 560})
-    explorer.open(PAIR + "&t=0&light=points")
+    explorer.open(PAIR + "&t=0")
     explorer.wait_for_picture(16)
     explorer.page.locator("[name=light]").select_option("forest")
     explorer.page.wait_for_function(
@@ -244,7 +244,7 @@ def test_the_theme_changes_and_stays(explorer: Explorer) -> None:
 @pytest.mark.parametrize("width", [320, 640, 800, 1440, 2560])
 def test_nothing_sticks_out(explorer: Explorer, width: int) -> None:
     explorer.page.set_viewport_size({"width": width, "height": 900})
-    explorer.open(PAIR + "&light=points")
+    explorer.open(PAIR)
     explorer.page.wait_for_selector(".recipe .name")
     assert explorer.page.evaluate("document.documentElement.scrollWidth") <= width
     for selector in (".head", ".space", ".material", ".route", ".recipe", ".brdf"):

@@ -286,12 +286,12 @@ def buffers_after_drag(explorer: Explorer) -> int:
     """Buffers on the card after t went all the way and the space was turned and shown in another map."""
     for i in range(25):
         explorer.set_t(i / 24)
-        # The space is drawn every 60 ms.
+        # The space is drawn every 60 ms; on a slow machine, not at every step.
         explorer.page.wait_for_timeout(70)
     explorer.page.locator(".cloud").press("Alt+ArrowLeft")
     for shown in ("G", "Looks"):
         explorer.page.locator(f".maps [data-value={shown}]").click()
-        explorer.page.wait_for_timeout(200)
+        still_cloud(explorer)
     return explorer.page.evaluate("window.buffers")
 
 

@@ -4,7 +4,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from conftest import Explorer, in_mitsuba, to_linear  # pyright: ignore[reportMissingImports]
+from conftest import (  # pyright: ignore[reportMissingImports]
+    Explorer,
+    in_mitsuba,
+    squares,
+    to_linear,
+)
 
 from halfway.library import ProceduralLibrary
 from halfway.render import SCENES
@@ -14,17 +19,15 @@ SIZE = {"width": 720, "height": 620}
 TEAPOT = replace(SCENES["teapot"], points=SCENES["spheres"].points, ground=False)
 MATERIAL = "pink-felt"
 """Matte: a shadow is as dark as it is, and little else is."""
-SIDE = 4
-"""Pixels along a square whose mean is compared: less noise."""
 
 
-@pytest.mark.parametrize(("light", "spp"), [("points", 64), ("studio", 256)])
+@pytest.mark.parametrize(("light", "samples", "spp"), [("points", 8, 64), ("studio", 48, 256)])
 def test_the_teapot_is_shadowed_as_in_mitsuba(
-    explorer: Explorer, library: ProceduralLibrary, light: str, spp: int
+    explorer: Explorer, library: ProceduralLibrary, light: str, samples: int, spp: int
 ) -> None:
     explorer.page.set_viewport_size(SIZE)
     explorer.open(f"#space=linear&stops={MATERIAL},teflon&t=0&shape=teapot&light={light}")
-    explorer.wait_until_settled()
+    explorer.wait_for_whole_picture(samples)
     shown = explorer.drawn()
     scene = TEAPOT if light == "points" else replace(TEAPOT, points=())
     rendered = squares(in_mitsuba(scene, library.brdf(MATERIAL), shown, spp=spp).clip(0, 1))
@@ -33,11 +36,3 @@ def test_the_teapot_is_shadowed_as_in_mitsuba(
     assert inside.sum() > 100
     # Without shadows 2.7 % under the three lights, and 4.2 % in the studio.
     assert np.abs(linear - rendered)[inside].mean() < 0.02 * rendered[inside].mean()
-
-
-def squares(picture: np.ndarray) -> np.ndarray:
-    """Means over squares of pixels; what is over at the right and below is left out."""
-    height, width, depth = picture.shape
-    rows, columns = height // SIDE, width // SIDE
-    cut = picture[: SIDE * rows, : SIDE * columns].astype(float)
-    return cut.reshape(rows, SIDE, columns, SIDE, depth).mean(axis=(1, 3))

@@ -17,9 +17,6 @@ SIZE = {"width": 1440, "height": 900}
 SECOND = 1000
 COMMON = "#space=linear&pace=uniform&shape=teapot&stops="
 BEFORE = "cherry-235,teflon&t=0.05"
-WHOLE = (
-    "() => document.querySelector('.live').width >= document.querySelector('.material').clientWidth"
-)
 
 
 def set_t(explorer: Explorer) -> None:
@@ -70,7 +67,7 @@ def test_a_change_is_seen_a_second_later_while_the_whole_picture_is_made(
     explorer.page.set_viewport_size(SIZE)
     expected = seen_at(explorer, after)
     stale = seen_at(explorer, before)
-    explorer.page.wait_for_function(WHOLE, timeout=60_000)
+    explorer.wait_for_whole_picture(0)
     assert comes_within_a_second(explorer, change, expected, difference(stale, expected) / 2)
 
 

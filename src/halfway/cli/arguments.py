@@ -27,7 +27,7 @@ def parse_t(text: str) -> list[float]:
         except ValueError:
             numbers = []
         match numbers:
-            case [t]:
+            case [t] if math.isfinite(t):
                 ts.append(t)
             case [start, stop, step] if 0 < step < math.inf and 0 <= stop - start < math.inf:
                 require_length(len(ts) + (stop - start) / step)
@@ -35,7 +35,7 @@ def parse_t(text: str) -> list[float]:
                 ts.extend(np.round(start + step * np.arange(n + 1), 12).tolist())
             case _:
                 raise ArgumentError(
-                    f"--t {part!r} is no number and no range: expected such as 0,0.25,1 or 0.0001:1:0.0001."
+                    f"--t {part!r} is no finite number and no range: expected such as 0,0.25,1 or 0.0001:1:0.0001."
                 )
     return ts
 

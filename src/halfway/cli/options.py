@@ -188,6 +188,14 @@ SceneName = Annotated[str, typer.Option(help="teapot, spheres, sphere or trio.")
 Environment = Annotated[
     Path | None, typer.Option("--env", help="Environment (.hdr, .exr) in place of the studio.")
 ]
+ShowEnv = Annotated[
+    bool,
+    typer.Option("--show-env", help="Show the environment behind the objects, not the ground."),
+]
+Turntable = Annotated[
+    int,
+    typer.Option(metavar="N", min=0, help="N pictures of each material, once around the objects."),
+]
 Mesh = Annotated[Path | None, typer.Option(help="Mesh (.ply, .obj) in place of the object.")]
 Size = Annotated[str, typer.Option(metavar="PIXELS", help="Of one picture: 384, or 640x480.")]
 RenderQuality = Annotated[

@@ -1,5 +1,6 @@
 """``halfway render``: pictures of materials."""
 
+from functools import partial
 from pathlib import Path
 
 from . import options
@@ -13,6 +14,7 @@ def render(
     output: options.Image,
     scene: options.SceneName = "teapot",
     env: options.Environment = None,
+    show_env: options.ShowEnv = False,
     mesh: options.Mesh = None,
     size: options.Size = "384",
     quality: options.RenderQuality = Quality.normal,
@@ -21,6 +23,7 @@ def render(
     bounces: options.Bounces = None,
     n: options.InStrip = 8,
     layout: options.Arrangement = Layout.STRIP,
+    turntable: options.Turntable = 0,
     exposure: options.Exposure = 0.0,
     seed: options.Seed = 0,
     device: options.Device = DeviceName.auto,
@@ -42,33 +45,30 @@ def render(
     halfway render fabric -o frames --format exr
     halfway render new.binary -o new.png --size 1024 --quality final
     halfway render teflon chrome gold-paint -o three.png --scene trio
+    halfway render gold-paint -o around.webp --turntable 24
+    halfway render chrome -o outside.png --scene sphere --env forest.exr --show-env
     """
     from halfway.recipes import open_materials
     from halfway.render import QUALITY, Renderer, denoiser_available, in_rows, write_pictures
 
     rows = in_rows([open_materials([word], library=library) for word in words])
-    renderer = Renderer(
-        scene,
+    lit = partial(Renderer, scene, env=env, show_env=show_env, mesh=mesh, bounces=bounces)
+    renderer = lit(
         size=options.parse_size(size),
         spp=QUALITY[quality] if spp is None else spp,
         denoise=denoiser_available() if denoise is None else denoise,
         seed=seed,
-        env=env,
-        mesh=mesh,
-        bounces=bounces,
         device=device.value,
         work=work(),
     )
+    write = partial(write_pictures, n_turns=turntable, fps=fps, exposure=exposure, work=work())
     with writing(output if output.suffix else None, force=force):
-        written = write_pictures(
+        written = write(
             output,
             renderer,
             rows,
             labels=[Path(word).name for word in words],
             most=None if layout is Layout.SHEET else n,
             suffix=f".{format}",
-            fps=fps,
-            exposure=exposure,
-            work=work(),
         )
     say(f"{output}: {written}")

@@ -1,7 +1,8 @@
 """``halfway space``: where the materials of a library, and others, are."""
 
 import json
-from typing import Annotated
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -11,6 +12,13 @@ from .completion import complete_names
 from .console import say, show, work
 from .options import SpaceName
 
+if TYPE_CHECKING:
+    import numpy as np
+
+    from ..components import Newcomer
+    from ..library import Library
+    from ..space import Space
+
 
 def space(
     lib: options.Lib = DEFAULT_LIBRARY,
@@ -18,7 +26,7 @@ def space(
         str,
         typer.Option(
             metavar="WHAT",
-            help="List the materials nearest to this one: a name, a file, a recipe.",
+            help="Say where this one stands, and what is nearest to it: a name, a file, a recipe.",
             autocompletion=complete_names,
         ),
     ] = "",
@@ -32,27 +40,64 @@ def space(
 
     \b
     halfway space --near gold-paint
-    halfway space merl.brdflib --json
+    halfway space merl.brdflib --near scan.binary
     halfway space --space paper > scores.txt
     """
     from halfway.library import open_library
     from halfway.space import make_space
 
     library = open_library(lib)
-    if near:
-        library.index(near)
+    # A mistake is told before the space is fitted.
+    newcomer = _newcomer(library, lib, near) if near and near not in library.names else None
     chosen = make_space(space, library, n_components=components, blend=blend, work=work())
-    neighbours = chosen.neighbours(near, n) if near else []
-    if as_json:
-        nearest = {"neighbours": dict(neighbours)} if near else {}
-        print(json.dumps({**chosen.to_json(), **nearest}, indent=1))
-    elif near:
-        say(
-            f"distance, in the scaled coordinates of the {space} space, in which scores have a spread of 1"
-        )
-        show(*(f"{distance:10.4f}  {name}" for name, distance in neighbours))
+    if near:
+        point = chosen.point_of(newcomer) if newcomer else chosen.points[library.index(near)]
+        _show_near(chosen, near, point, n, as_json)
+    elif as_json:
+        print(json.dumps(chosen.to_json(), indent=1))
     else:
-        say("in 1/sr")
-        show("  ".join(f"{name:>12}" for name in chosen.coordinates) + "  material")
-        for name, point in zip(chosen.names, chosen.points.tolist(), strict=True):
-            show("  ".join(f"{value:12.6g}" for value in point) + f"  {name}")
+        say(f"in {chosen.unit}")
+        show(_line(chosen.coordinates, "material"), *map(_line, chosen.points, chosen.names))
+
+
+def _newcomer(library: "Library", lib: str, what: str) -> "Newcomer":
+    """The one material that is called, filed or mixed so."""
+    from halfway.components import Newcomer
+    from halfway.recipes import open_materials, split_address
+
+    from .arguments import ArgumentError
+
+    is_addressed = len(split_address(what)) > 1
+    materials = open_materials(
+        [what], library="" if is_addressed or lib == DEFAULT_LIBRARY else lib
+    )
+    if len(materials) != 1:
+        raise ArgumentError(
+            f"--near {what} is {len(materials)} materials: expected one. Name one of them."
+        )
+    (material,) = materials
+    return Newcomer(library, material.load(), material.label, work())
+
+
+def _show_near(space: "Space", name: str, point: "np.ndarray", n: int, as_json: bool) -> None:
+    """A point, the mix that stands there or nearest to it, and the materials around it."""
+    position = space.at(point, clamp=True)
+    others = [near for near in space.nearest(point, n + 1) if near[0] != name][:n]
+    if as_json:
+        where = {"point": point.tolist(), "inside": position.inside, "mix": position.point.tolist()}
+        print(json.dumps({**space.to_json(), "near": where, "neighbours": dict(others)}, indent=1))
+        return
+    say(f"in {space.unit}")
+    show(_line(space.coordinates, "material"), _line(point, name))
+    if not position.inside:
+        show(_line(position.point, "(the nearest mix: it is outside the hull)"))
+    say(f"distance, in the coordinates as the {space.name} space scales them")
+    show(_line(["distance"], "material"), *(_line([distance], other) for other, distance in others))
+
+
+def _line(values: "Sequence[float | str] | np.ndarray", name: str) -> str:
+    """A line of a table, or its header."""
+    return (
+        "  ".join(f"{value:>12{'' if isinstance(value, str) else '.6g'}}" for value in values)
+        + f"  {name}"
+    )

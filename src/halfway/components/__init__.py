@@ -2,7 +2,8 @@
 
 from .compacting import compact_library
 from .mapped import MappedRows
+from .newcomer import Newcomer
 from .pca import Pca
 from .plan import PcaPlan
 
-__all__ = ["MappedRows", "Pca", "PcaPlan", "compact_library"]
+__all__ = ["MappedRows", "Newcomer", "Pca", "PcaPlan", "compact_library"]

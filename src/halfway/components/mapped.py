@@ -29,8 +29,11 @@ class MappedRows(Streamed):
         self.material_checksums = tuple(each + label for each in library.material_checksums)
 
     def columns(self, columns: slice) -> Float32[np.ndarray, "n_channels N n"]:
-        mapped = self._mapping.to(self._library.columns(columns))
-        return mapped * _scale(self.grid)[columns]
+        return self.of(self._library.columns(columns), columns)
+
+    def of(self, samples: np.ndarray, columns: slice) -> np.ndarray:
+        """Mapped and weighed samples of any material on the grid."""
+        return self._mapping.to(samples) * _scale(self.grid)[columns]
 
     def blocks(self) -> list[slice]:
         return self._library.blocks()

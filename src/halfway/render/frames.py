@@ -14,14 +14,16 @@ from .renderer import Renderer
 
 
 class Frame(NamedTuple):
-    """One picture of a folder."""
+    """One picture of several."""
 
     name: str
-    """Of the file; its suffix says how it is written."""
+    """Of its file in a folder; the suffix says how it is written."""
     of: Any
     """What it shows, as JSON."""
     picture: Callable[[], np.ndarray]
     """Linear RGB radiance, shape (height, width, 3)."""
+    label: str = ""
+    """What stands under it beside others."""
 
 
 class Written(NamedTuple):

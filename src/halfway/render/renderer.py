@@ -12,6 +12,7 @@ With more bounces the ground and the objects stand in one scene and light each o
 """
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from functools import cached_property
 from hashlib import sha256
 from pathlib import Path
@@ -59,6 +60,8 @@ class Renderer:
         In place of every object of the scene: ``.ply`` or ``.obj``, y up.
     bounces : int, optional
         Of light between surfaces, in place of the scene's own.
+    show_env : bool
+        The environment stands behind the objects, in place of the ground.
     denoise : bool
         Take the noise out of each picture. A denoised picture of a mix is not quite the mix of the denoised pictures.
     device : {"auto", "cpu", "gpu"}
@@ -90,11 +93,14 @@ class Renderer:
         env: Path | str | None = None,
         mesh: Path | str | None = None,
         bounces: int | None = None,
+        show_env: bool = False,
         denoise: bool = False,
         device: Device = "auto",
         work: Work = HERE,
     ) -> None:
         self.scene = _scene(scene)
+        if show_env:
+            self.scene = _before_environment(self.scene, env)
         self.size = size
         self.spp = spp
         self.seed = seed
@@ -113,10 +119,29 @@ class Renderer:
         self._work = work
         env, mesh = (None if path is None else Path(path) for path in (env, mesh))
         self._files = env, mesh
+        self._show_env = show_env
+        self._device: Device = device
         with interrupts_wait():
             from .stage import Stage
 
             self._stage = Stage(self.scene, size=size, env=env, mesh=mesh)
+
+    def turned(self, degrees: float) -> "Renderer":
+        """The same with its objects on a turntable, counter-clockwise seen from above; light and camera stay."""
+        env, mesh = self._files
+        return Renderer(
+            self.scene.turned(degrees),
+            size=self.size,
+            spp=self.spp,
+            seed=self.seed,
+            env=env,
+            mesh=mesh,
+            bounces=self.bounces,
+            show_env=self._show_env,
+            denoise=self._denoise,
+            device=self._device,
+            work=self._work,
+        )
 
     @property
     def exact(self) -> bool:
@@ -144,7 +169,7 @@ class Renderer:
         exposure = Exposure(self.spp, self.seed, denoise=self._denoise, progress=progress)
         if self.bounces > 1:
             layer = self._stage.whole(materials, exposure, bounces=self.bounces)
-            return layer.over(_background(self.size))
+            return layer.over(self._behind)
         return self._stage.objects(materials, exposure).over(self.backdrop)
 
     def fingerprint(self) -> str:
@@ -155,7 +180,7 @@ class Renderer:
     def backdrop(self) -> np.ndarray:
         """What is behind the objects, as if seen through them: radiance, float32, shape (height, width, 3)."""
         if not self.scene.ground:
-            return _background(self.size)
+            return self._behind
         denoise = denoiser_available()
         exposure = Exposure(max(self.spp, BACKDROP_SPP[not denoise]), seed=0, denoise=denoise)
         kept = self._work.cached(
@@ -164,13 +189,20 @@ class Renderer:
         )
         return refined(kept["radiance"], self.size)
 
+    @cached_property
+    def _behind(self) -> np.ndarray:
+        """What is behind all, the ground too."""
+        return self._stage.environment() if self._show_env else _background(self.size)
+
     def _ground(self, exposure: Exposure) -> np.ndarray:
         layer = self._stage.ground(exposure)
         return layer.over(_background((layer.window.width, layer.window.height)))
 
     def _fingerprint(self, *sampling: int) -> str:
         """Of the scene, and of how it is sampled."""
-        digest = sha256(f"3 {self.scene} {self.size} {self.exact} {sampling}".encode())
+        digest = sha256(
+            f"4 {self.scene} {self.size} {self.exact} {self._show_env} {sampling}".encode()
+        )
         for path in self._files:
             digest.update(b"none" if path is None else path.read_bytes())
         digest.update(studio(16).tobytes())
@@ -199,6 +231,15 @@ def _scene(scene: str | Scene) -> Scene:
     if scene not in SCENES:
         raise RenderError(f"there is no scene {scene!r}: there are {', '.join(SCENES)}.")
     return SCENES[scene]
+
+
+def _before_environment(scene: Scene, env: Path | str | None) -> Scene:
+    """The scene without its ground, for light that shows."""
+    if scene.points and env is None:
+        raise RenderError(
+            f"the scene {scene.name} is lit by {len(scene.points)} points, which are no environment to show: expected one, with --env."
+        )
+    return replace(scene, ground=False)
 
 
 def _require(what: str, value: int, least: int, most: int) -> None:

@@ -4,7 +4,8 @@ World coordinates: x to the right of the camera, y away from it, z up; the groun
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from math import cos, radians, sin
 from typing import Any, Literal
 
 from ..brdf import TabularBrdf
@@ -31,6 +32,13 @@ class Placed:
     def width(self) -> float:
         """The diameter of the room for it: the teapot's own, or a sphere's."""
         return self.height * (2.05 if self.shape == "teapot" else 1.0)
+
+    def turned(self, degrees: float) -> "Placed":
+        """It on a turntable about the vertical through the origin, counter-clockwise seen from above."""
+        c, s = cos(radians(degrees)), sin(radians(degrees))
+        x, y, z = self.at
+        at = c * x - s * y, s * x + c * y, z
+        return replace(self, at=at, turn_degrees=self.turn_degrees + degrees)
 
 
 @dataclass(frozen=True)
@@ -74,6 +82,10 @@ class Scene:
     def n_materials(self) -> int:
         """How many materials the scene takes."""
         return 1 + max(placed.material for placed in self.objects)
+
+    def turned(self, degrees: float) -> "Scene":
+        """The objects on a turntable, under the same light, from the same place."""
+        return replace(self, objects=tuple(placed.turned(degrees) for placed in self.objects))
 
 
 _KEY, _FILL, _BACK = (

@@ -1,25 +1,27 @@
 """Pictures of many materials: one file with all of them, an animation, or a folder with a file for each.
 
 Materials come in rows. With direct light the pictures of mixes are mixed from those of their ingredients (`basis`),
-where that takes fewer renders.
+where that takes fewer renders. On a turntable the row of a material is its pictures from all sides.
 """
 
 from collections.abc import Callable, Sequence
-from functools import partial
+from functools import lru_cache, partial
 from pathlib import Path
 from typing import TypeVar
 
 import numpy as np
 
+from ..brdf import TabularBrdf
 from ..recipes import Blend, NamedBrdf, file_names
 from ..tasks import HERE, Work
 from . import pictures
 from .basis import BasisPictures
-from .frames import Frame, Written, write_frames
+from .frames import Frame, write_frames
 from .renderer import Renderer
 
 T = TypeVar("T")
 Rows = Sequence[Sequence[NamedBrdf]]
+Shots = Sequence[Sequence[Frame]]
 
 
 def in_rows(groups: Sequence[Sequence[T]]) -> list[list[T]]:
@@ -37,6 +39,7 @@ def write_pictures(
     labels: Sequence[str] = (),
     most: int | None = None,
     suffix: str = ".png",
+    n_turns: int = 0,
     fps: float = 12,
     exposure: float = 0.0,
     work: Work = HERE,
@@ -54,6 +57,8 @@ def write_pictures(
         Materials of a row in one picture, evenly chosen; None makes a sheet about as wide as high.
     suffix : str
         Of the files in a folder.
+    n_turns : int
+        Pictures of each material on a turntable, once around; 0: one, as the scene has it.
 
     Raises
     ------
@@ -61,52 +66,96 @@ def write_pictures(
         When the suffix is of no known kind, the exposure shows nothing, or the files cannot be written.
     """
     pictures.require_exposure(exposure)
+    materials = [material for row in rows for material in row]
+    is_animated = path.suffix.lower() in pictures.ANIMATED and max(n_turns, len(materials)) > 1
+    is_sheet = path.suffix and not is_animated
+    shown = [_spread(row, most) for row in rows] if is_sheet and most else rows
+    if n_turns:
+        shots = _turntable(renderer, materials, n_turns, suffix)
+        labels = [material.label for material in materials]
+    elif is_sheet and _is_dressed_by(outfit := [m for row in shown for m in row], renderer):
+        shots = [[_together(renderer, outfit)]]
+    else:
+        shots = _each(renderer, shown, suffix, work)
+    kept = ""
     if not path.suffix:
-        materials = _flat(rows)
-        done = _write_folder(path, renderer, materials, suffix, exposure, work)
+        frames = [frame for row in shots for frame in row]
+        done = write_frames(path, renderer, frames, exposure=exposure, work=work)
         text = _counted(done.n_written, "picture")
         kept = f", {done.n_kept:,} kept" if done.n_kept else ""
-    elif path.suffix.lower() in pictures.ANIMATED and len(_flat(rows)) > 1:
-        n_frames = _write_animation(path, renderer, rows, labels, fps, exposure, work)
-        text, kept = _counted(n_frames, "frame"), ""
+    elif is_animated:
+        text = _counted(_write_animation(path, shots, labels, fps, exposure, work), "frame")
     else:
-        n_images = _write_sheet(path, renderer, rows, labels, most, exposure, work)
-        text, kept = _counted(n_images, "picture"), ""
+        in_strip = most is not None
+        text = _counted(_write_sheet(path, shots, labels, in_strip, exposure, work), "picture")
     return f"{text} of the {renderer.scene.name} scene{kept}"
 
 
-def _write_folder(
-    folder: Path,
-    renderer: Renderer,
-    materials: Sequence[NamedBrdf],
-    suffix: str,
-    exposure: float,
-    work: Work,
-) -> Written:
-    """Write a picture of each material, called as it is; those that an earlier run made are kept."""
+def _each(renderer: Renderer, rows: Rows, suffix: str, work: Work) -> list[list[Frame]]:
+    """A picture of each material, called as it is."""
+    materials = [material for row in rows for material in row]
     picture = _pictures(renderer, materials, work)
-    frames = [
-        Frame(name, material.of, partial(picture, material))
-        for name, material in zip(file_names(materials, suffix), materials, strict=True)
+    names = iter(file_names(materials, suffix))
+    return [
+        [
+            Frame(next(names), material.of, partial(picture, material), material.label)
+            for material in row
+        ]
+        for row in rows
     ]
-    return write_frames(folder, renderer, frames, exposure=exposure, work=work)
+
+
+def _is_dressed_by(materials: Sequence[NamedBrdf], renderer: Renderer) -> bool:
+    """Whether the scene takes just so many, and not the same for all."""
+    return 1 < len(materials) == renderer.scene.n_materials
+
+
+def _together(renderer: Renderer, materials: Sequence[NamedBrdf]) -> Frame:
+    """One picture of all materials, which dress the scene together."""
+    return Frame(
+        "together",
+        [material.of for material in materials],
+        lambda: renderer.picture([material.table() for material in materials]),
+    )
+
+
+def _turntable(
+    renderer: Renderer, materials: Sequence[NamedBrdf], n: int, suffix: str
+) -> list[list[Frame]]:
+    """A row of ``n`` pictures of each material, or of all that dress the scene together, once around."""
+    outfits = [materials] if _is_dressed_by(materials, renderer) else [[m] for m in materials]
+    turned = lru_cache(maxsize=1)(renderer.turned)
+
+    @lru_cache(maxsize=8)
+    def tables(i: int) -> list[TabularBrdf]:
+        return [material.table() for material in outfits[i]]
+
+    def picture(i: int, degrees: float) -> np.ndarray:
+        return turned(degrees).picture(tables(i))
+
+    def frame(i: int, name: str, turn: int) -> Frame:
+        degrees = 360 * turn / n
+        of = {"materials": [material.of for material in outfits[i]], "turned_degrees": degrees}
+        file = f"{name}-{turn:03d}{suffix}"
+        return Frame(file, of, partial(picture, i, degrees), f"{degrees:.0f}°")
+
+    names = file_names([outfit[0] for outfit in outfits], "")
+    return [[frame(i, name, turn) for turn in range(n)] for i, name in enumerate(names)]
 
 
 def _write_animation(
     path: Path,
-    renderer: Renderer,
-    rows: Rows,
+    rows: Shots,
     labels: Sequence[str],
     fps: float,
     exposure: float,
     work: Work,
 ) -> int:
-    """Write an animation whose frames show a material of each row, side by side under ``labels``; gives their number."""
-    picture = _pictures(renderer, _flat(rows), work)
+    """Write an animation whose frames show one of each row, side by side under ``labels``; gives their number."""
     columns = list(zip(*rows, strict=True))
 
-    def frame(column: Sequence[NamedBrdf]) -> np.ndarray:
-        images = list(map(picture, column))
+    def frame(column: Sequence[Frame]) -> np.ndarray:
+        images = [shot.picture() for shot in column]
         one = len(images) == 1
         return images[0] if one else pictures.strip(images, labels=labels, exposure=exposure)
 
@@ -117,29 +166,19 @@ def _write_animation(
 
 def _write_sheet(
     path: Path,
-    renderer: Renderer,
-    rows: Rows,
+    rows: Shots,
     labels: Sequence[str],
-    most: int | None,
+    in_strip: bool,
     exposure: float,
     work: Work,
 ) -> int:
-    """Write one picture of all materials; gives how many it is made of.
-
-    They dress a scene together where it takes so many. Else each has a picture of its own: rows of at most ``most``,
-    evenly chosen, or, without ``most``, a sheet about as wide as high.
-    """
-    rows = [_spread(row, most) if most else row for row in rows]
-    materials = _flat(rows)
-    if len(materials) > 1 and len(materials) == renderer.scene.n_materials:
-        images = [renderer.picture([material.table() for material in materials])]
-    else:
-        picture = _pictures(renderer, materials, work)
-        images = list(map(picture, work.track(materials, "Pictures", len(materials))))
+    """Write one picture of all, row by row, or, of one row, as a sheet about as wide as high; gives how many it is made of."""
+    shots = [shot for row in rows for shot in row]
+    images = [shot.picture() for shot in work.track(shots, "Pictures", len(shots))]
     if len(images) == 1:
         pictures.write(path, images[0], exposure=exposure)
     else:
-        columns = len(rows[0]) if most or len(rows) > 1 else None
+        columns = len(rows[0]) if in_strip or len(rows) > 1 else None
         titles = _titles(rows, labels)
         tiles = pictures.sheet(images, labels=titles, columns=columns, exposure=exposure)
         pictures.write(path, tiles)
@@ -174,15 +213,11 @@ def _spread(row: Sequence[NamedBrdf], n: int) -> list[NamedBrdf]:
     return [row[round(i * (len(row) - 1) / max(1, n - 1))] for i in range(n)]
 
 
-def _titles(rows: Rows, labels: Sequence[str]) -> list[str]:
+def _titles(rows: Shots, labels: Sequence[str]) -> list[str]:
     if len(rows) == 1:
-        return [material.label for material in rows[0]]
+        return [shot.label for shot in rows[0]]
     pairs = zip(labels, rows, strict=True)
-    return [f"{label}, {material.label}" for label, row in pairs for material in row]
-
-
-def _flat(rows: Rows) -> list[NamedBrdf]:
-    return [material for row in rows for material in row]
+    return [f"{label}, {shot.label}" for label, row in pairs for shot in row]
 
 
 def _counted(n: int, what: str) -> str:

@@ -25,6 +25,8 @@ from .wardrobe import Files, Tables
 
 PAPER = 0.4
 """Reflectance of the ground."""
+ENVIRONMENT_SPP = 16
+"""Samples of what is behind the objects: no noise, but edges within a pixel."""
 
 
 class Stage:
@@ -62,6 +64,13 @@ class Stage:
         sensor = _sensor(self._scene.camera, size, widened=COARSE * size[0] / self._size[0])
         scenes = self._load(bsdfs, sensor, ground=True)
         return _photograph(scenes, seen_through(black), exposure)
+
+    def environment(self) -> np.ndarray:
+        """The light itself where the camera looks, shape (height, width, 3)."""
+        sensor = _sensor(self._scene.camera, self._size)
+        scenes = [mi.load_dict({"type": "scene", "sensor": sensor, "light": self._lights[0]})]
+        shown = mi.load_dict({"type": "direct"})
+        return _photograph(scenes, shown, Exposure(ENVIRONMENT_SPP, seed=0)).radiance
 
     def _ground_beside(self, black: list[Any], exposure: Exposure) -> Layer:
         """The ground beside black objects: what Mitsuba's own integrators see, which are the fast ones in a scalar variant."""

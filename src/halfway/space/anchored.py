@@ -23,6 +23,7 @@ the distance of its ends. ``detour`` = 1 gives the ends alone (or nearly), infin
 
 from bisect import bisect_left
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -86,9 +87,8 @@ class AnchoredSpace(Space):
         if k < 0:
             raise SpaceError(f"a space of {k} components cannot be made: expected 0 or more.")
         pca = Pca.fit(MappedRows(library, blend), work=work)
-        unit = blend.mapping.unit
-        scores = Scores.joint(pca, k, spread=1.0, unit=unit)
-        body = body_group(body_colours(library, blend=blend, work=work), unit=unit)
+        scores = Scores.joint(pca, k, spread=1.0, blend=blend)
+        body = body_group(body_colours(library, blend=blend, work=work), blend)
         return cls.of(
             LibraryRef.of(library),
             Coordinates((scores, body)),
@@ -144,7 +144,14 @@ class AnchoredSpace(Space):
         return bool(length <= self.detour * cielab_difference(pictures[0], pictures[-1]))
 
 
-def body_group(body: Float64[np.ndarray, "N 3"], *, unit: str = "1/sr") -> Group:
-    """Body colours as coordinates."""
+def body_group(body: Float64[np.ndarray, "N 3"], blend: Blend = Blend.LINEAR) -> Group:
+    """Body colours as coordinates, in the mapping of a blend."""
     names = ("body_r", "body_g", "body_b")
-    return Numbers(label="Body colour", names=names, points=body, spread=BODY_SPREAD, unit=unit)
+    return Numbers(
+        label="Body colour",
+        names=names,
+        points=body,
+        spread=BODY_SPREAD,
+        unit=blend.mapping.unit,
+        read=partial(body_colours, blend=blend),
+    )

@@ -1,15 +1,15 @@
 """Coordinates: the named numbers of each material that a space is made of.
 
 They come in *groups* that belong together, such as the first scores of a principal component analysis or a body colour. Each
-group has a unit, says how far its materials are spread where distances count, and knows the coordinates that a material would
-have among the others, which leave-one-out asks for.
+group has a unit, says how far its materials are spread where distances count, and knows the coordinates of a material that is not
+in the library, and those that one of its own would have among the others, which leave-one-out asks for.
 
     Scores      of the library's PCA, of one channel or of all together
     Numbers     of each material by itself, such as its body colour
 """
 
 from abc import ABC, abstractmethod
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
@@ -18,7 +18,10 @@ import numpy as np
 from jaxtyping import Float64
 
 from .._types import Points
-from ..components import Pca
+from ..components import Newcomer, Pca
+from ..errors import SpaceError
+from ..library import Library
+from ..recipes import Blend
 
 
 class LeftOut(NamedTuple):
@@ -42,6 +45,10 @@ class Group(ABC):
     unit: str = "1/sr"
 
     @abstractmethod
+    def of(self, newcomer: Newcomer) -> Float64[np.ndarray, " d"]:
+        """The coordinates of a material that is not in the library."""
+
+    @abstractmethod
     def without(self, i: int) -> LeftOut:
         """The coordinates where material ``i`` is not in the library."""
 
@@ -57,6 +64,17 @@ class Group(ABC):
 class Numbers(Group):
     """Numbers that each material has by itself."""
 
+    read: Callable[[Library], Points] | None = None
+    """What reads them off the tables of a library; None where they are not of the tables."""
+
+    def of(self, newcomer: Newcomer) -> Float64[np.ndarray, " d"]:
+        if self.read is None:
+            raise SpaceError(
+                f"{self.label} of {newcomer.name} is not known: {', '.join(self.names)} cannot be read off a table. "
+                "Choose another space."
+            )
+        return self.read(newcomer.alone)[0]
+
     def without(self, i: int) -> LeftOut:
         return LeftOut(np.delete(self.points, i, axis=0), self.points[i])
 
@@ -71,26 +89,36 @@ class Scores(Group):
         U'_ab = U_ab - mean_s U_as - mean_s U_sb + mean_st U_st          s, t in S
 
     whose rows and columns in S have eigenvectors V and eigenvalues L; the score of a material i that is not in S on
-    component j is ``sum_s U'_is V_sj / sqrt(L_j)``.
+    component j is ``sum_s U'_is V_sj / sqrt(L_j)``. That of any other material is the same, with its own products U'_is; and
+    with the scores ``Y_sj = V_sj sqrt(L_j)`` it is ``sum_s U'_is Y_sj / sum_s Y_sj^2``.
     """
 
     label: str = "Scores"
     pca: Pca
     channels: tuple[int, ...] = (0, 1, 2)
+    blend: Blend | None = None
+    """In whose mapping samples are, and then weighed by cosines; None: as they are."""
 
     @classmethod
     def joint(
-        cls, pca: Pca, n: int, *, spread: float | None = None, unit: str = "1/sr"
+        cls, pca: Pca, n: int, *, spread: float | None = None, blend: Blend | None = None
     ) -> "Scores":
         """The first ``n`` scores of all channels together: as many as there are."""
         points = pca.joint_scores(n)
-        return cls(names=_score_names(points), points=points, spread=spread, unit=unit, pca=pca)
+        unit = blend.mapping.unit if blend else "1/sr"
+        names = _score_names(points)
+        return cls(names=names, points=points, spread=spread, unit=unit, pca=pca, blend=blend)
 
     @classmethod
     def of_channel(cls, pca: Pca, n: int, channel: int) -> "Scores":
         """The first ``n`` scores of one channel, as they are."""
         points = pca.scores(n)[channel]
         return cls(names=_score_names(points), points=points, pca=pca, channels=(channel,))
+
+    def of(self, newcomer: Newcomer) -> Float64[np.ndarray, " d"]:
+        along = newcomer.products(self.blend)[list(self.channels)].sum(axis=0) @ self.points
+        squares = np.square(self.points).sum(axis=0)
+        return np.divide(along, squares, out=np.zeros_like(squares), where=squares > 0)
 
     def without(self, i: int) -> LeftOut:
         others = np.delete(np.arange(len(self.points)), i)
@@ -135,6 +163,10 @@ class Coordinates:
     def scale(self) -> Float64[np.ndarray, " d"]:
         """What the coordinates are multiplied by where distances count."""
         return self._scale([group.points for group in self.groups])
+
+    def of(self, newcomer: Newcomer) -> Float64[np.ndarray, " d"]:
+        """The coordinates of a material that is not in the library."""
+        return np.concatenate([group.of(newcomer) for group in self.groups])
 
     def without(self, i: int) -> LeftOut:
         """The scaled coordinates where material ``i`` is not in the library; the scale is that of the others."""

@@ -13,6 +13,7 @@ from typing import Any, ClassVar, NamedTuple
 import numpy as np
 from jaxtyping import Float64
 
+from ..components import Newcomer
 from ..errors import OutsideHullError, SpaceError
 from ..library import LibraryRef
 from ..recipes import Blend, Recipe
@@ -77,6 +78,17 @@ class Space(ABC):
         """Where each material is: its `coordinates`."""
         parts = [chart.coordinates.points for chart in self.charts]
         return np.concatenate([np.zeros((len(self.names), 0)), *parts], axis=1)
+
+    def point_of(self, newcomer: Newcomer) -> Float64[np.ndarray, " d"]:
+        """Where a material stands that is not of the library: its `coordinates`.
+
+        Raises
+        ------
+        SpaceError
+            When a coordinate cannot be read off its table.
+        """
+        parts = [chart.coordinates.of(newcomer) for chart in self.charts]
+        return np.concatenate([np.zeros(0), *parts])
 
     def at(
         self, point: Mapping[str, float] | Sequence[float] | np.ndarray, *, clamp: bool = False
