@@ -4,6 +4,7 @@ import csv
 
 import numpy as np
 import pytest
+from glossy import library
 from numpy.testing import assert_allclose
 
 from halfway import TabularBrdf, tabulate
@@ -11,7 +12,7 @@ from halfway.formats import read_nbrdf_archive
 from halfway.halfdiff import Grid
 from halfway.library import ProceduralLibrary
 from halfway.models import builtin
-from halfway.people import Perception
+from halfway.people import Perception, distances
 from halfway.people.networks import Network, networks
 from halfway.people.perceived import ANCHOR, ANCHOR_SCORES, EXPLAINED, lightness, samples
 
@@ -86,3 +87,37 @@ def test_how_much_of_each_network_a_straight_line_explains(neural):
         values = network.of(x[:, 1:])
         rest = values - x @ np.linalg.lstsq(x, values, rcond=None)[0]
         assert_allclose(1 - rest.var() / values.var(), EXPLAINED[name], atol=0.01)
+
+
+def test_distances_are_distances():
+    """None below 0, 0 to itself, the same both ways, and no way round is shorter."""
+    d = distances(library(8))
+    assert (d >= 0).all()
+    assert_allclose(np.diag(d), 0)
+    assert_allclose(d, d.T)
+    assert (d[:, None] + d[None] >= d[..., None].swapaxes(1, 2) - 1e-9).all()
+
+
+def test_chrome_is_more_like_steel_than_like_a_fabric():
+    names = ["chrome", "steel", "white-fabric", "pink-felt"]
+    tables = {name: tabulate(ABC[name], Grid.merl(45, 30, 24), name=name) for name in names}
+    d = distances(ProceduralLibrary("four", tables, grid=Grid.merl(45, 30, 24)))
+    assert 3 * d[0, 1] < d[0, 2]
+    assert 3 * d[2, 3] < d[2, 1]
+
+
+def test_the_distance_is_with_the_majority_of_the_answers(shared_data):
+    """Those it was fitted to; ``benchmarks/human_distance.py`` judges it by others."""
+    models = read_nbrdf_archive(shared_data / "nbrdf" / "merl_nbrdf.zip").models
+    neural = ProceduralLibrary("neural", models, grid=Grid.merl(60, 30, 24))
+    d, index = distances(neural), neural.names.index
+    rows = csv.DictReader(
+        (shared_data / "human_similarity" / "answers.csv").read_text().splitlines()
+    )
+    with_majority = [
+        (d[index(row["reference"]), index(row["a"])] < d[index(row["reference"]), index(row["b"])])
+        == (int(row["votes_a"]) > int(row["votes_b"]))
+        for row in rows
+        if row["votes_a"] != row["votes_b"]
+    ]
+    assert np.mean(with_majority) > 0.82

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from .halfdiff import MERL, Grid, HalfDiff, from_half_diff, to_half_diff
     from .instruments import attributes
     from .library import Library, build_library, open_library
+    from .people import distances
     from .recipes import Recipe, mix
     from .render import picture
     from .space import LinearSpace, PaperSpace, Route, Space, make_space, route
@@ -30,6 +31,7 @@ _HOMES = {
     "formats": ("read_brdf", "write_brdf"),
     "instruments": ("attributes",),
     "library": ("Library", "build_library", "open_library"),
+    "people": ("distances",),
     "recipes": ("Recipe", "mix"),
     "render": ("picture",),
     "space": ("LinearSpace", "PaperSpace", "Route", "Space", "make_space", "route"),
@@ -52,6 +54,7 @@ __all__ = [
     "attributes",
     "build_library",
     "directional_albedo",
+    "distances",
     "find",
     "from_half_diff",
     "make_space",

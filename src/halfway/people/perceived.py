@@ -121,6 +121,19 @@ class Perception:
         }
 
 
+def library_scores(
+    library: Library, *, work: Work = HERE
+) -> Float64[np.ndarray, "N 3 n_components"]:
+    """The coordinates of all materials of a library, by `Perception.of` it; kept in the cache."""
+    perception = Perception.of(library, work=work)
+
+    def compute() -> dict[str, np.ndarray]:
+        rows = work.run(partial(_row, library.material), library.names, label="Perception")
+        return {"scores": perception.scores(np.stack(list(rows)))}
+
+    return work.cached(f"perceived-1-{library.checksum}", compute)["scores"]
+
+
 def samples(brdf: Brdf) -> Values:
     """Values f c of a material at the pairs of directions that perception looks at."""
     wi, wo = _pairs()
