@@ -54,7 +54,7 @@ def features(library: Library, *, work: Work = HERE) -> Features:
     """What a distance is made of, of each material of a library."""
     readings = Readings.fit(library, work=work).values
     x = lightness(library_scores(library, work=work))
-    of = {name: a.of(readings) for name, a in ATTRIBUTES.items() if a.is_number}
+    of = {name: np.asarray(a.of(readings)) for name, a in ATTRIBUTES.items() if a.is_number}
     chroma, hue = np.hypot(of["a"], of["b"]), np.arctan2(of["b"], of["a"])
     return {
         **{f"log_{name}": np.log(of[name] + floor) for name, floor in _GLOSSES.items()},
