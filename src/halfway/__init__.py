@@ -11,10 +11,13 @@ from ._display import register
 if TYPE_CHECKING:
     from .brdf import Brdf, TabularBrdf, directional_albedo, tabulate
     from .components import Pca
+    from .control import find, reach
     from .errors import HalfwayError
     from .formats import read_brdf, write_brdf
     from .halfdiff import MERL, Grid, HalfDiff, from_half_diff, to_half_diff
+    from .instruments import attributes
     from .library import Library, build_library, open_library
+    from .people import distances
     from .recipes import Recipe, mix
     from .render import picture
     from .space import LinearSpace, PaperSpace, Route, Space, make_space, route
@@ -24,8 +27,11 @@ _HOMES = {
     "errors": ("HalfwayError",),
     "halfdiff": ("MERL", "Grid", "HalfDiff", "from_half_diff", "to_half_diff"),
     "components": ("Pca",),
+    "control": ("find", "reach"),
     "formats": ("read_brdf", "write_brdf"),
+    "instruments": ("attributes",),
     "library": ("Library", "build_library", "open_library"),
+    "people": ("distances",),
     "recipes": ("Recipe", "mix"),
     "render": ("picture",),
     "space": ("LinearSpace", "PaperSpace", "Route", "Space", "make_space", "route"),
@@ -45,13 +51,17 @@ __all__ = [
     "Route",
     "Space",
     "TabularBrdf",
+    "attributes",
     "build_library",
     "directional_albedo",
+    "distances",
+    "find",
     "from_half_diff",
     "make_space",
     "mix",
     "open_library",
     "picture",
+    "reach",
     "read_brdf",
     "route",
     "tabulate",

@@ -7,6 +7,8 @@
     |- RecipeError       weights that are no recipe
     |- SpaceError        a space cannot be made, or a place in it not be reached
     |  `- OutsideHullError   the place is not between the materials
+    |- ControlError      an attribute is none, or is asked for as it cannot be
+    |  `- OutOfReachError    no mix has what is asked for
     |- RenderError       a picture cannot be made here
     |- FetchError        a data set cannot be downloaded, or is not what it should be
     |- RemoteError       storage on another machine cannot be read or written
@@ -53,6 +55,14 @@ class SpaceError(HalfwayError):
 
 class OutsideHullError(SpaceError):
     """A point of a space that is no mix of its materials."""
+
+
+class ControlError(HalfwayError):
+    """An attribute that there is none of, or is asked for as it cannot be."""
+
+
+class OutOfReachError(ControlError):
+    """Attributes that no mix of a library has; the message says which, and how far it goes."""
 
 
 class RenderError(HalfwayError):

@@ -2,8 +2,7 @@
 
     a(theta_i) = sum over cells of w(theta_i, cell) f(cell)
 
-The weights are those of `directional_albedo`: the midpoint rule over half vectors, each node spread over the corners of
-its trilinear lookup that are measured. They depend on which cells are measured, not on what is in them.
+The weights are those of `directional_albedo` (`Functional.albedo`).
 """
 
 from dataclasses import dataclass
@@ -12,14 +11,11 @@ from functools import lru_cache
 import numpy as np
 from jaxtyping import Float64
 
-from .._types import Indices, Mask
+from .._types import Mask
 from ..halfdiff import Grid
 from .brdf import require_isotropic
-from .quadrature import HalfVectors
+from .quadrature import Functional
 from .table import TabularBrdf
-
-N_THETA_H = 360
-N_PHI_H = 60
 
 
 @dataclass(frozen=True, eq=False)
@@ -27,8 +23,7 @@ class AlbedoOperator:
     """What each cell contributes to the albedo from each direction."""
 
     theta_i: Float64[np.ndarray, " n"]
-    cells: tuple[Indices, ...]
-    weights: tuple[Float64[np.ndarray, "_"], ...]
+    rows: tuple[Functional, ...]
 
     @classmethod
     def of(cls, grid: Grid, measured: Mask, theta_i: Float64[np.ndarray, " n"]) -> "AlbedoOperator":
@@ -40,19 +35,14 @@ class AlbedoOperator:
             When tables on the grid depend on the light's azimuth.
         """
         require_isotropic(grid, "its albedo", name=f"a table on a grid of {grid} cells")
-        rows = [_row(grid, measured.ravel(), float(theta)) for theta in theta_i]
         return cls(
-            theta_i, tuple(cells for cells, _ in rows), tuple(weights for _, weights in rows)
+            theta_i, tuple(Functional.albedo(grid, measured, float(theta)) for theta in theta_i)
         )
 
     def apply(self, samples: np.ndarray) -> Float64[np.ndarray, "c n"]:
         """Albedos of tables, shape (c, n_cells)."""
         flat = samples.reshape(len(samples), -1)
-        rows = [
-            np.take(flat, cells, axis=1).astype(np.float64) @ weights
-            for cells, weights in zip(self.cells, self.weights, strict=True)
-        ]
-        return np.stack(rows, axis=1)
+        return np.stack([row.of(flat) for row in self.rows], axis=1)
 
 
 def albedos(table: TabularBrdf, theta_i: Float64[np.ndarray, " n"]) -> Float64[np.ndarray, "n 3"]:
@@ -73,14 +63,3 @@ def albedos(table: TabularBrdf, theta_i: Float64[np.ndarray, " n"]) -> Float64[n
 @lru_cache(maxsize=4)
 def _of_grid(grid: Grid, theta_i: tuple[float, ...]) -> AlbedoOperator:
     return AlbedoOperator.of(grid, grid.mask(), np.array(theta_i))
-
-
-def _row(grid: Grid, measured: Mask, theta_i: float) -> tuple[Indices, Float64[np.ndarray, "_"]]:
-    rule = HalfVectors.at(theta_i, N_THETA_H, N_PHI_H)
-    corners = grid.multilinear(rule.fixed, rule.other)
-    weights = np.where(measured[corners.cells], corners.weights, 0)
-    total = weights.sum(axis=0)
-    shares = np.divide(weights, total, out=np.zeros_like(weights), where=total > 0)
-    sums = np.bincount(corners.cells.ravel(), (rule.weights * shares).ravel(), minlength=grid.size)
-    cells = np.flatnonzero(sums)
-    return cells, sums[cells]

@@ -9,11 +9,13 @@ import typer
 
 from ..locations import DEFAULT_LIBRARY
 from . import (
+    attributes,
     check,
     console,
     demo,
     export,
     files,
+    find,
     fit,
     library,
     mix,
@@ -41,6 +43,8 @@ COMMANDS = (
     view.view,
     route.route,
     mix.mix,
+    find.find,
+    attributes.attributes,
     render.render,
     report.report,
     reproduce.reproduce,

@@ -1,6 +1,7 @@
 """What a person writes on the command line, as the package's values."""
 
 import math
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -75,3 +76,15 @@ def parse_point(text: str) -> np.ndarray:
             f"--point {text!r} is no list of finite numbers: expected such as 1.5,-2e3,0.1."
         )
     return point
+
+
+def parse_targets(texts: Sequence[str]) -> dict[str, str]:
+    """The attributes written as ``gloss60=35``, one each."""
+    targets: dict[str, str] = {}
+    for text in texts:
+        name, equals, value = (part.strip() for part in text.partition("="))
+        if not equals or name in targets:
+            wrong = "gives it twice" if name in targets else "is no attribute with its value"
+            raise ArgumentError(f"{text!r} {wrong}: expected such as gloss60=35, each once.")
+        targets[name] = value
+    return targets

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from . import figures
     from .fits import MODEL_OF, model_of, write_fit
-    from .materials import recipe_beside, write_material, write_materials
+    from .materials import recipe_beside, write_material, write_materials, write_recipe
     from .report import Report, TableRow, write_report
     from .routes import Written, write_route
     from .scene_folders import write_scenes
@@ -23,6 +23,7 @@ __all__ = [
     "write_fit",
     "write_material",
     "write_materials",
+    "write_recipe",
     "write_report",
     "write_route",
     "write_scene",
@@ -32,7 +33,7 @@ __all__ = [
 # Who writes a table does not wait for what draws figures.
 _HOMES = {
     "fits": ("MODEL_OF", "model_of", "write_fit"),
-    "materials": ("recipe_beside", "write_material", "write_materials"),
+    "materials": ("recipe_beside", "write_material", "write_materials", "write_recipe"),
     "report": ("Report", "TableRow", "write_report"),
     "routes": ("Written", "write_route"),
     "scene_folders": ("write_scenes",),

@@ -12,13 +12,13 @@ import json
 from collections.abc import Sequence
 from dataclasses import asdict
 from pathlib import Path
-from typing import Any
 
 from ..errors import OutputError
 from ..files import replacing
 from ..formats import write_brdf, write_rgl
 from ..halfdiff import Grid
-from ..recipes import NamedBrdf, file_names
+from ..library import Library
+from ..recipes import NamedBrdf, Recipe, file_names
 from ..tasks import HERE, Work
 from .fits import MODEL_OF, write_fit
 
@@ -59,10 +59,9 @@ def write_material(
     table = material.table(grid)
     write_brdf(path, table)
     if beside := recipe_beside(path, material):
-        with replacing(beside) as temporary:
-            temporary.write_text(
-                json.dumps(_recipe_document(material), indent=1, ensure_ascii=False) + "\n"
-            )
+        assert material.library is not None
+        assert material.recipe is not None
+        write_recipe(beside, material.library, material.recipe)
     return f"{material.label}, {table.grid} cells"
 
 
@@ -73,17 +72,17 @@ def recipe_beside(path: Path, material: NamedBrdf) -> Path | None:
     )
 
 
-def _recipe_document(material: NamedBrdf) -> dict[str, Any]:
-    library, recipe = material.library, material.recipe
-    assert library is not None
-    assert recipe is not None
-    return {
+def write_recipe(path: Path, library: Library, recipe: Recipe) -> None:
+    """Write a recipe as JSON, with which library it is of, and that one's source and licence."""
+    document = {
         "format": 2,
         **recipe.to_json(),
         "library_address": library.address,
         "library_checksum": library.checksum,
         **asdict(library.origin),
     }
+    with replacing(path) as temporary:
+        temporary.write_text(json.dumps(document, indent=1, ensure_ascii=False) + "\n")
 
 
 def write_materials(

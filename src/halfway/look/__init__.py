@@ -4,7 +4,7 @@ from .appearance import appearance, ciede2000_difference, cielab_difference, fli
 from .images import Looks, most_different
 from .lit_sphere import JUDGING_SCENE, PACING_SCENE, SphereOperator, SphereScene
 from .portraits import N_SPHERES, portrait, recipes_png, table_png, to_png
-from .samples import CellSamples, body_colours
+from .samples import CellSamples, body_colours, body_mask
 
 __all__ = [
     "JUDGING_SCENE",
@@ -16,6 +16,7 @@ __all__ = [
     "SphereScene",
     "appearance",
     "body_colours",
+    "body_mask",
     "ciede2000_difference",
     "cielab_difference",
     "flip",

@@ -1,0 +1,112 @@
+"""What docs/control.md says of finding recipes, measured on a library of MERL's materials.
+
+python docs/control.py merl_nbrdf.zip [--grid 90x45x45]
+"""
+
+import argparse
+import time
+
+import numpy as np
+
+from halfway.brdf import fresnel
+from halfway.cli.arguments import parse_grid
+from halfway.control import Control, Wishes
+from halfway.halfdiff import Grid, cosines
+from halfway.instruments import ATTRIBUTES, of_readings
+from halfway.instruments.functionals import INSTRUMENTS
+from halfway.library import Library, ProceduralLibrary, open_library
+from halfway.people import Perception
+from halfway.people.networks import networks
+from halfway.people.perceived import lightness, samples
+from halfway.recipes import Blend
+
+ASKED = ("gloss60", "albedo", "body")
+N_TRIPLES = 200
+ORDER = ("chrome", "specular-black-phenolic", "teflon", "white-fabric", "blue-fabric")
+
+
+def main() -> None:
+    """Print every figure."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("library")
+    parser.add_argument("--grid", default="90x45x45", help="that materials are sampled on")
+    options = parser.parse_args()
+    given, grid = open_library(options.library), parse_grid(options.grid)
+    models = {name: given.material(name) for name in given.names}
+    library = ProceduralLibrary(given.name, models, grid=grid)
+    start = time.perf_counter()
+    control = Control.of(library)
+    print(
+        f"{len(library)} materials on {library.grid}: read in {time.perf_counter() - start:.1f} s"
+    )
+    print_gloss(control)
+    print_mirrors()
+    print_found(control)
+    print_perceived(library)
+
+
+def print_gloss(control: Control) -> None:
+    """Gloss of some materials, from shiny to matte."""
+    for name in ORDER:
+        of = of_readings(control.readings.values[control.library.index(name)])
+        print(
+            f"  {name:24}"
+            + "".join(f"  {n} {of[n]:7.2f}" for n in ("gloss20", "gloss60", "gloss85"))
+        )
+
+
+def print_mirrors() -> None:
+    """What black glass reads as a table: a lobe of .1 degrees."""
+    for grid in (Grid.merl(), Grid.merl(720, 360, 2)):
+        angles = grid.centres()
+        cos_i, cos_o = cosines(angles.theta_h, angles.theta_d, angles.phi_d)
+        tan, width = np.tan(angles.theta_h), np.radians(0.1)
+        d = np.exp(-((tan / width) ** 2)) / (np.pi * width**2 * np.cos(angles.theta_h) ** 4)
+        mirror = fresnel(np.cos(angles.theta_d), 1.567) * d / (4 * np.abs(cos_i * cos_o))
+        values = np.where(grid.mask(), np.broadcast_to(mirror, grid.shape), np.nan).reshape(1, -1)
+        read = [INSTRUMENTS[f"gloss{a}"](grid, grid.mask()).of(values)[0] for a in (20, 60, 85)]
+        print(f"black glass on {grid}: " + ", ".join(f"{r:.2f}" for r in read))
+
+
+def print_found(control: Control) -> None:
+    """How exactly and how soon random reachable triples are found."""
+    rng = np.random.default_rng(0)
+    n, seconds, errors = len(control.library), [], []
+    for _ in range(N_TRIPLES):
+        weights = np.zeros(n)
+        weights[rng.choice(n, 5, replace=False)] = rng.dirichlet(np.ones(5))
+        of = of_readings(control.readings.mix(np.broadcast_to(weights, (3, n)), Blend.LINEAR))
+        wishes = Wishes.of({name: of[name] for name in ASKED})
+        start = time.perf_counter()
+        recipe = control.find(wishes)
+        seconds.append(time.perf_counter() - start)
+        has = control.attributes(recipe)
+        errors.append(max(np.abs(has[name] / of[name] - 1).max() for name in ASKED))
+    print(
+        f"{N_TRIPLES} triples of {', '.join(ASKED)}: largest relative error {max(errors):.1e}, "
+        f"{1e3 * np.median(seconds):.1f} ms in the median, {1e3 * max(seconds):.0f} ms at most"
+    )
+    start = time.perf_counter()
+    for name in (names := [n for n, a in ATTRIBUTES.items() if a.is_number and not a.needs]):
+        control.reach(name, Wishes.of({"L": 30}))
+    print(
+        f"a range where L* = 30: {1e3 * (time.perf_counter() - start) / len(names):.0f} ms in the mean"
+    )
+
+
+def print_perceived(library: Library) -> None:
+    """How much of each network a straight line explains, and what the stand-ins' components change."""
+    rows = np.stack([samples(library.material(name)) for name in library.names])
+    x, by_stand_ins = (lightness(Perception.of(of).scores(rows)) for of in (library, None))
+    line = np.column_stack([np.ones(len(x)), x])
+    for name, network in networks().items():
+        values, others = network.of(x), network.of(by_stand_ins)
+        rest = values - line @ np.linalg.lstsq(line, values, rcond=None)[0]
+        print(
+            f"  {name:22} explained {1 - rest.var() / values.var():.2f}, by the stand-ins' components "
+            f"rms {np.sqrt(np.mean((values - others) ** 2)):.3f}, correlation {np.corrcoef(values, others)[0, 1]:.3f}"
+        )
+
+
+if __name__ == "__main__":
+    main()

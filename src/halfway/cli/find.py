@@ -1,0 +1,86 @@
+"""``halfway find``: the recipe that has what is asked for."""
+
+import json
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from ..locations import DEFAULT_LIBRARY
+from . import options
+from .attributes import lines, to_json
+from .completion import complete_names
+from .console import say, show, work
+from .outputs import writing
+
+NAME_VALUE = "NAME=VALUE"
+Like = Annotated[
+    str,
+    typer.Option(
+        metavar="WHAT",
+        help="What it shall be like: a name, a file, a recipe.",
+        autocompletion=complete_names,
+    ),
+]
+Exactly = Annotated[
+    list[str],
+    typer.Option("--set", metavar=NAME_VALUE, help="An attribute, exactly; again for more."),
+]
+AtMost = Annotated[list[str], typer.Option(metavar=NAME_VALUE, help="An attribute at the most.")]
+AtLeast = Annotated[list[str], typer.Option(metavar=NAME_VALUE, help="An attribute at the least.")]
+Few = Annotated[bool, typer.Option("--few", help="Of as few materials as can be.")]
+Clamp = Annotated[bool, typer.Option("--clamp", help="Take the nearest where no mix has all that.")]
+Output = Annotated[
+    Path | None,
+    typer.Option("--output", "-o", metavar="FILE", help="A recipe, .json; or a material."),
+]
+
+
+def find(
+    lib: options.Lib = DEFAULT_LIBRARY,
+    like: Like = "",
+    exactly: Exactly = [],  # noqa: B006 (typer copies it, here and below)
+    at_most: AtMost = [],  # noqa: B006
+    at_least: AtLeast = [],  # noqa: B006
+    few: Few = False,
+    clamp: Clamp = False,
+    output: Output = None,
+    as_json: options.AsJson = False,
+    force: options.Force = False,
+) -> None:
+    """Find the recipe that has these attributes, and of those the one nearest to a material.
+
+    \b
+    halfway find --like cherry-235 --set gloss60=35 -o glossy.json
+    halfway find merl.brdflib --set L=40 --set a=20 --set b=10 --at-most gloss60=5
+    halfway find --like scan.binary --set "body=#7a3b1e" -o new.binary
+    """
+    from halfway.control import Control, Wishes
+    from halfway.export import write_material, write_recipe
+    from halfway.recipes import NamedBrdf
+
+    from .arguments import ArgumentError, parse_targets
+
+    wishes = Wishes.of(parse_targets(exactly), parse_targets(at_most), parse_targets(at_least))
+    if not like and not list(wishes.each()):
+        raise ArgumentError(
+            "there is nothing to find: give --set, --at-most, --at-least or --like."
+        )
+    control = Control.of(lib, work=work())
+    recipe = control.find(wishes, like=like or None, few=few, clamp=clamp)
+    if output:
+        with writing(output, force=force):
+            if output.suffix == ".json":
+                write_recipe(output, control.library, recipe)
+            else:
+                write_material(output, NamedBrdf.mixed(control.library, recipe, output.stem))
+    read = control.attributes(recipe)
+    if as_json:
+        print(json.dumps({"format": 1, **recipe.to_json(), "attributes": to_json(read)}, indent=1))
+    else:
+        show(*(f"{weight:.6f}  {name}" for name, weight in recipe.to_json()["weights"].items()))
+        show(*lines(read))
+    if output:
+        say(
+            f"{output}: a mix of {', '.join(recipe.names)}. Next: halfway render {output} -o new.png"
+        )

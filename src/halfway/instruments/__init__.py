@@ -1,0 +1,18 @@
+"""What instruments read off a table, and the attributes that are functions of it: numbers that people use of a material."""
+
+from .attribute import Attribute, Condition
+from .readings import Readings, read_table
+from .registry import ATTRIBUTES, attribute, attributes, of_readings, of_table, table_of
+
+__all__ = [
+    "ATTRIBUTES",
+    "Attribute",
+    "Condition",
+    "Readings",
+    "attribute",
+    "attributes",
+    "of_readings",
+    "of_table",
+    "read_table",
+    "table_of",
+]

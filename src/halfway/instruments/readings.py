@@ -1,0 +1,93 @@
+"""Readings: what the instruments say of a table, or of every material of a library, in each channel.
+
+Everything that is said of a material is a function of these few numbers. Each is linear in the table, so the readings of a
+linear mix are the mix of the readings (exactly where the materials are measured on the same cells).
+"""
+
+from dataclasses import dataclass
+from functools import lru_cache, partial
+
+import numpy as np
+from jaxtyping import Float, Float64
+
+from ..brdf import TabularBrdf, quadrature
+from ..errors import RecipeError
+from ..halfdiff import Grid
+from ..library import Library
+from ..recipes import Blend
+from ..tasks import HERE, Work
+from .attribute import Reading
+from .functionals import VERSION, functionals
+
+
+@dataclass(frozen=True, eq=False)
+class Readings:
+    """The readings of all materials of a library."""
+
+    names: tuple[str, ...]
+    """The materials, in the library's order."""
+    values: Float64[np.ndarray, "N n_instruments 3"]
+
+    @classmethod
+    def fit(cls, library: Library, *, work: Work = HERE) -> "Readings":
+        """The readings of ``library``; kept in the cache under its checksum."""
+
+        def compute() -> dict[str, np.ndarray]:
+            functionals(library.grid, library.grid.mask())  # refuses what is anisotropic at once
+            tasks = work.run(partial(_row, library), range(len(library)), label="Attributes")
+            return {"values": np.stack(list(tasks))}
+
+        key = f"readings-{VERSION}-{library.checksum}"
+        return cls(library.names, work.cached(key, compute)["values"])
+
+    def mix(self, weights: Float[np.ndarray, "3 *k N"], blend: Blend) -> Reading:
+        """The readings of recipes, given by their weights over all materials.
+
+        Raises
+        ------
+        RecipeError
+            When the readings of a blend are not those of its materials, mixed.
+        """
+        if blend is not Blend.LINEAR:
+            raise RecipeError(
+                f"readings cannot be mixed in the blend {str(blend)!r}: expected 'linear'. Read the mixed table instead."
+            )
+        used = weights.any(axis=tuple(range(weights.ndim - 1)))  # others may be unmeasured
+        few = self.values[used]
+        return np.einsum("c...n,nfc->...fc", weights[..., used], few)
+
+
+def read_table(table: TabularBrdf) -> Reading:
+    """The readings of a table.
+
+    Raises
+    ------
+    AnisotropyError
+        When it may depend on phi_h.
+    """
+    measured = ~np.isnan(table.values)
+    usual = table.grid.mask()
+    if all(np.array_equal(channel, usual) for channel in measured):
+        return _read(_of_grid(table.grid), table.values.reshape(3, -1))
+    channels = [
+        _read(functionals(table.grid, mask), samples.reshape(1, -1))
+        for mask, samples in zip(measured, table.values, strict=True)
+    ]
+    return np.concatenate(channels, axis=1)
+
+
+def _row(library: Library, i: int) -> Reading:
+    samples = library.row(i).reshape(3, *library.grid.shape)
+    return read_table(TabularBrdf(samples, library.grid))
+
+
+def _read(
+    rows: list[quadrature.Functional], samples: Float[np.ndarray, "c p"]
+) -> Float64[np.ndarray, "n c"]:
+    nothing = np.full(len(samples), np.nan)
+    return np.stack([row.of(samples) if len(row.cells) else nothing for row in rows])
+
+
+@lru_cache(maxsize=2)  # 5 MB each on the MERL grid
+def _of_grid(grid: Grid) -> list[quadrature.Functional]:
+    return functionals(grid, grid.mask())

@@ -1,0 +1,207 @@
+"""Recipes by what they shall be."""
+
+import json
+
+import numpy as np
+import pytest
+from glossy import GRID, glossy, library
+from numpy.testing import assert_allclose
+
+from halfway import attributes, find, mix, reach, write_brdf
+from halfway.cli import main as halfway
+from halfway.control import Control, Range, Wishes
+from halfway.errors import ControlError, OutOfReachError
+from halfway.instruments import ATTRIBUTES, of_readings
+from halfway.recipes import Blend, Recipe
+
+LIBRARY = library()
+CONTROL = Control.of(LIBRARY)
+N = len(LIBRARY)
+
+
+def random_weights(n: int, seed: int = 0) -> np.ndarray:
+    rng = np.random.default_rng(seed)
+    return rng.dirichlet(np.ones(N), size=n)
+
+
+def found(like: str | None = None, few: bool = False, clamp: bool = False, **asked) -> Recipe:
+    """As `halfway.find` would, of a library that is read once."""
+    exact = asked.pop("set", None)
+    return CONTROL.find(Wishes.of(exact, **asked), like=like, few=few, clamp=clamp)
+
+
+def ends(name: str, **asked) -> Range:
+    return CONTROL.reach(name, Wishes.of(asked.get("set")))
+
+
+def values_of(weights: np.ndarray) -> dict:
+    dense = np.broadcast_to(weights, (3, *weights.shape))
+    return of_readings(CONTROL.readings.mix(dense, Blend.LINEAR))
+
+
+@pytest.mark.parametrize(
+    "names", [("gloss60", "albedo", "body"), ("L", "a", "b", "haze"), ("highlight_width", "doi")]
+)
+@pytest.mark.parametrize("seed", range(5))
+def test_a_recipe_has_what_is_asked_for(names: tuple[str, ...], seed: int):
+    """What a mix has can be asked for, and the found recipe has it to rounding: in the readings, and in its table."""
+    of = values_of(random_weights(1, seed)[0])
+    asked = {name: of[name] for name in names}
+    recipe = found(set=asked)
+    has = CONTROL.attributes(recipe)
+    for name in names:
+        assert_allclose(has[name], asked[name], rtol=1e-6, atol=1e-9)
+    assert_allclose(attributes(mix(LIBRARY, recipe))[names[0]], asked[names[0]], rtol=1e-4)
+    assert (recipe.weights == recipe.weights[0]).all()
+
+
+def test_like_a_material_is_that_material():
+    assert CONTROL.find(Wishes(), like="m3").names == ("m3",)
+
+
+def test_like_a_file_that_is_one_of_the_materials_is_that_material(tmp_path):
+    write_brdf(tmp_path / "scan.binary", LIBRARY.brdf("m5"))
+    assert CONTROL.find(Wishes(), like=str(tmp_path / "scan.binary")).names == ("m5",)
+
+
+def test_what_is_not_asked_for_stays():
+    """A change of gloss keeps the body colour where some mix does; a change of colour keeps the gloss."""
+    own = attributes(LIBRARY.brdf("m0"))
+    target = (own["gloss60"] + CONTROL.reach("gloss60", Wishes({"body": own["body"]})).high) / 2
+    has = CONTROL.attributes(CONTROL.find(Wishes({"gloss60": target}), like="m0"))
+    assert_allclose(has["body"], own["body"], rtol=1e-6)
+    assert_allclose(has["gloss60"], target, rtol=1e-6)
+
+
+def test_bounds_hold():
+    for seed in range(5):
+        of = values_of(random_weights(1, seed)[0])
+        bounds = {"at_most": {"gloss60": of["gloss60"]}, "at_least": {"albedo": of["albedo"]}}
+        has = CONTROL.attributes(found("m0", **bounds))
+        assert has["gloss60"] <= of["gloss60"] * (1 + 1e-9)
+        assert has["albedo"] >= of["albedo"] * (1 - 1e-9)
+
+
+def test_few_takes_no_more_materials_than_numbers_and_one():
+    of = values_of(random_weights(1)[0])
+    recipe = found("m1", set={"gloss60": of["gloss60"], "body": of["body"]}, few=True)
+    assert len(recipe.names) <= 5
+
+
+@pytest.mark.parametrize("name", [n for n, a in ATTRIBUTES.items() if a.is_number and not a.needs])
+def test_alone_an_attribute_goes_as_far_as_the_materials_do(name: str):
+    """A mix is never beyond its materials, neither in a sum nor in a ratio: the ends are at two of them."""
+    values = ATTRIBUTES[name].of(CONTROL.readings.values)
+    assert_allclose(ends(name), [values.min(), values.max()], rtol=1e-9, atol=1e-12)
+
+
+@pytest.mark.parametrize("name", ["haze", "doi", "highlight_width", "a"])
+def test_a_range_holds_what_is_held_and_ends_where_it_says(name: str):
+    of = values_of(random_weights(1, 3)[0])
+    held = {"gloss60": of["gloss60"], "L": of["L"]}
+    low, high = ends(name, set=held)
+    assert low <= of[name] <= high
+    size = high - low
+    for end, beyond in ((low, low - 1e-3 * size), (high, high + 1e-3 * size)):
+        inside = end + 1e-6 * (np.mean([low, high]) - end)
+        assert_allclose(
+            CONTROL.attributes(found(set={**held, name: inside}))[name], inside, rtol=1e-6
+        )
+        with pytest.raises(OutOfReachError):
+            found(set={**held, name: beyond})
+
+
+def test_the_verbs_make_what_is_asked_and_ask_it():
+    of = values_of(random_weights(1)[0])
+    low, high = reach(LIBRARY, "gloss60", set={"L": of["L"]}, at_most={"haze": of["haze"]})
+    assert low <= of["gloss60"] <= high
+    recipe = find(LIBRARY, "m1", set={"gloss60": high, "L": of["L"]}, at_most={"haze": of["haze"]})
+    assert_allclose(CONTROL.attributes(recipe)["gloss60"], high, rtol=1e-6)
+
+
+def test_what_is_out_of_reach_is_told_with_its_range_and_the_nearest_taken():
+    with pytest.raises(
+        OutOfReachError, match=r"gloss60 = 5000: it goes from .* to .* there.*--clamp"
+    ) as told:
+        found(set={"gloss60": 5000})
+    assert "\n" not in str(told.value)
+    has = CONTROL.attributes(found(set={"gloss60": 5000}, clamp=True))
+    assert_allclose(has["gloss60"], ends("gloss60").high, rtol=1e-6)
+
+
+def test_what_only_the_others_forbid_is_told_with_them():
+    of = values_of(random_weights(1)[0])
+    body = tuple(float(x) for x in of["body"])
+    beyond = ends("gloss60", set={"body": body}).high * 1.01
+    assert beyond < ends("gloss60").high
+    with pytest.raises(
+        OutOfReachError,
+        match=r"no mix of glossy has body = #.* where gloss60 = .*: the nearest is #",
+    ):
+        found(set={"body": body, "gloss60": beyond})
+
+
+def test_a_colour_out_of_reach_is_told_with_the_nearest():
+    with pytest.raises(OutOfReachError, match="body = #ff0000: the nearest is #"):
+        found(set={"body": "#ff0000"})
+
+
+@pytest.mark.parametrize(
+    ("asked", "told"),
+    [
+        ({"set": {"a": 10}}, "Set L too"),
+        ({"set": {"L": 50}, "at_most": {"body": "#102030"}}, "has no least and no most"),
+        ({}, "there is nothing to find"),
+        ({"set": {"shine": 1}}, "there is no attribute 'shine'"),
+    ],
+)
+def test_wishes_that_make_no_sense_are_refused(asked: dict, told: str):
+    with pytest.raises(ControlError, match=told):
+        find(LIBRARY, **asked)
+
+
+def test_the_command_line_finds_and_tells(tmp_path, monkeypatch, capsys):
+    """A recipe found, and its attributes read again."""
+    names = ["dark", "matte", "shiny"]
+    bodies = [(0.02, 0.02, 0.02), (0.5, 0.4, 0.3), (0.1, 0.1, 0.2)]
+    for name, body, strength in zip(names, bodies, (0.1, 0.0, 1.0), strict=True):
+        write_brdf(tmp_path / f"{name}.binary", glossy(body, strength, 0.1, GRID))
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    monkeypatch.chdir(tmp_path)
+    run(
+        monkeypatch,
+        "library",
+        "build",
+        *(f"{name}.binary" for name in names),
+        "-o",
+        "three.brdflib",
+    )
+    run(
+        monkeypatch,
+        "find",
+        "three.brdflib",
+        "--like",
+        "matte",
+        "--set",
+        "gloss60=4",
+        "-o",
+        "new.json",
+        "--json",
+    )
+    found = json.loads(capsys.readouterr().out)
+    assert found["attributes"]["gloss60"] == pytest.approx(4, rel=1e-6)
+    run(monkeypatch, "attributes", "new.json", "--json")
+    (read,) = json.loads(capsys.readouterr().out)
+    assert read["attributes"]["gloss60"] == pytest.approx(4, rel=1e-4)
+    run(monkeypatch, "attributes", "three.brdflib")
+    assert [line.split()[-1] for line in capsys.readouterr().out.splitlines()] == [
+        "material",
+        *names,
+    ]
+
+
+def run(monkeypatch, *words: str) -> None:
+    monkeypatch.setattr("sys.argv", ["halfway", *words])
+    with pytest.raises(SystemExit) as stop:
+        halfway()
+    assert not stop.value.code
