@@ -3,14 +3,16 @@ import json
 import socket
 import threading
 import urllib.request
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from types import ModuleType
+from typing import Any
 
 import numpy as np
 import pytest
 from fastapi.testclient import TestClient
 from numpy.testing import assert_allclose, assert_array_equal
-from patience import PATIENCE
+from patience import PATIENCE, wait_until
 
 from halfway.brdf import TabularBrdf
 from halfway.formats import write_merl
@@ -22,6 +24,7 @@ from halfway.server.blocks import Block
 from halfway.server.guard import MAX_BODY
 from halfway.server.page import Asset
 from halfway.space import PACES, SPACES, Route, make_space
+from halfway.tasks import Work
 
 ROOT = Path(__file__).parents[1]
 HOST = "http://127.0.0.1:8765"
@@ -87,6 +90,56 @@ def test_a_table_that_the_browser_has_is_not_sent_again(client: TestClient) -> N
     first = client.get("/api/tables/material-0")
     again = client.get("/api/tables/material-0", headers={"If-None-Match": first.headers["etag"]})
     assert (again.status_code, again.content) == (304, b"")
+
+
+@pytest.mark.parametrize("what", ["tables/material-3", "thumbnails", "environment"])
+def test_what_is_large_is_compressed_and_kept_by_its_content(client: TestClient, what: str) -> None:
+    plain = client.get(f"/api/{what}", headers={"Accept-Encoding": "identity"})
+    packed = client.get(f"/api/{what}", headers={"Accept-Encoding": "gzip"})
+    assert packed.headers["content-encoding"] == "gzip"
+    assert packed.content == plain.content
+    assert int(packed.headers["content-length"]) < len(plain.content)
+    again = client.get(f"/api/{what}", headers={"If-None-Match": plain.headers["etag"]})
+    assert (again.status_code, again.content) == (304, b"")
+
+
+def test_files_named_after_their_content_are_never_asked_for_again(
+    small_library: ProceduralLibrary,
+) -> None:
+    page = Page(
+        {name: Asset(b"1", "text/javascript", '"1"') for name in ("index.html", "assets/a-1b.js")}
+    )
+    client = TestClient(create_app(small_library, page=page), base_url=HOST)
+    assert "immutable" in client.get("/assets/a-1b.js").headers["cache-control"]
+    assert client.get("/").headers["cache-control"] == "no-cache"
+
+
+def test_what_takes_long_is_answered_with_how_far_it_is(small_library: ProceduralLibrary) -> None:
+    go_on = threading.Event()
+
+    def halting(items: Iterable[Any], label: str, total: int) -> Iterator[Any]:  # noqa: ARG001
+        for item in items:
+            yield item
+            go_on.wait()
+
+    app = create_app(small_library, work=Work(track=halting), patience=0.01)
+    client = TestClient(app, base_url=HOST)
+    try:
+        assert client.get("/api/library").status_code == 200
+        # The first of nine pictures is drawn, and counted, some time after it was asked for.
+        wait_until(
+            lambda: (
+                (answer := client.get("/api/thumbnails").json())["progress"]
+                and answer["progress"]["done"]
+            )
+        )
+        answer = client.get("/api/thumbnails")
+        assert answer.status_code == 202
+        progress = answer.json()["progress"]
+        assert (progress["done"], progress["total"]) == (1, 9)
+    finally:
+        go_on.set()
+    wait_until(lambda: client.get("/api/thumbnails").status_code == 200)
 
 
 def test_thumbnails_are_the_basis_images(client: TestClient) -> None:

@@ -1,6 +1,7 @@
 // What every panel is given.
 
-import type { Block, Client } from "./api/client";
+import type { Client } from "./api/client";
+import type { Lights } from "./render/lights";
 import type { Tables } from "./render/tables";
 import type { Actions, Linked, State, Theme } from "./state";
 import type { Store } from "./store";
@@ -17,7 +18,7 @@ export interface Context {
   readonly actions: Actions;
   readonly thumbnails: Thumbnails;
   readonly tables: Tables;
-  readonly environment: Block;
+  readonly lights: Lights;
   /** Aborted when the page is taken away. */
   readonly signal: AbortSignal;
 }

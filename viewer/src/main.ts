@@ -4,7 +4,7 @@ import { Problem } from "./api/client";
 import { files } from "./api/files";
 import { http } from "./api/http";
 import { mount } from "./mount";
-import { fromHash } from "./permalink";
+import { fromHash, unknownIn } from "./permalink";
 import type { Theme } from "./state";
 import "./styles/window.css";
 
@@ -23,7 +23,10 @@ mount(document.querySelector<HTMLElement>("#app")!, data ? files(data) : http, {
 }).then(
   // Another link in the address bar of the same page loads nothing anew.
   ({ store, actions }) =>
-    addEventListener("hashchange", () => actions.visit(fromHash(location.hash, store.get().library))),
+    addEventListener("hashchange", () => {
+      const { library } = store.get();
+      actions.visit(fromHash(location.hash, library), unknownIn(location.hash, library));
+    }),
   (error: unknown) => {
     // What a person can act on is on the page already.
     if (!(error instanceof Problem)) throw error;

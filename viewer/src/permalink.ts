@@ -56,6 +56,19 @@ export function fromHash(hash: string, library: LibrarySummary): Partial<Linked>
   return Object.fromEntries(Object.entries(sensible).filter(([, value]) => value !== undefined));
 }
 
+/** What a link asks for that makes no sense here, in one line; null where all does. */
+export function unknownIn(hash: string, library: LibrarySummary): string | null {
+  const fields = new URLSearchParams(hash.replace(/^#/, ""));
+  const materials = new Set(library.materials.map(({ name }) => name));
+  const understood: Partial<Linked> = fromHash(hash, library);
+  const unknown = [...fields].flatMap(([key, value]) => {
+    if (key === "stops") return value.split(",").filter((name) => name && !materials.has(name));
+    return key in understood ? [] : [`${key} ${value}`];
+  });
+  if (unknown.length === 0) return null;
+  return `The link asks for ${unknown.join(", ")}, which the explorer of ${library.name} does not have: it is shown without.`;
+}
+
 function toOrbit(numbers: readonly number[]): Orbit | undefined {
   const [azimuth, elevation, zoom] = numbers;
   if (numbers.length !== 3 || !numbers.every(Number.isFinite)) return undefined;

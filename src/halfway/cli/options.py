@@ -167,7 +167,10 @@ Image = Annotated[
 ]
 SceneName = Annotated[str, typer.Option(help="teapot, spheres, sphere or trio.")]
 Environment = Annotated[
-    Path | None, typer.Option("--env", help="Environment (.hdr, .exr) in place of the studio.")
+    Path | None,
+    typer.Option(
+        "--env", help="Environment (.hdr, .exr, or `studio`) in place of the scene's light."
+    ),
 ]
 Mesh = Annotated[Path | None, typer.Option(help="Mesh (.ply, .obj) in place of the object.")]
 Size = Annotated[str, typer.Option(metavar="PIXELS", help="Of one picture: 384, or 640x480.")]

@@ -1,9 +1,28 @@
 // What the page asks for, whoever answers: a server (`http`), a folder of files (`files`), or a notebook's kernel (`kernel`).
 
-import type { LegView, LibrarySummary, PositionView, RecipeDocument, SpaceView } from "./schema";
+import type {
+  LegView,
+  LibrarySummary,
+  PositionView,
+  ProgressView,
+  RecipeDocument,
+  SpaceView,
+} from "./schema";
 
 /** A failure that a person can act on, in one line that says how. */
 export class Problem extends Error {}
+
+/** What is not to be had now, and is asked for again: it is being computed, or nobody answers. */
+export class Later extends Problem {
+  constructor(
+    message: string,
+    /** Whether it is being computed, and how far that is; else nobody answers. */
+    readonly computed = false,
+    readonly progress: ProgressView | null = null,
+  ) {
+    super(message);
+  }
+}
 
 /** Half floats for the graphics card. */
 export interface Block {

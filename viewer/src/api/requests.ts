@@ -1,7 +1,8 @@
 // The server's API as a `Client`, over anything that carries requests: see halfway.server.app.
 // A mistake comes back as {"error": "one line"} and is thrown as a `Problem`.
 
-import { type Block, type Client, Problem } from "./client";
+import { type Block, type Client, Later, Problem } from "./client";
+import type { NotYet } from "./schema";
 
 export interface Request {
   readonly method: "GET" | "POST";
@@ -43,6 +44,10 @@ export function clientOver(ask: Ask): Client {
 
 async function said(ask: Ask, request: Request): Promise<Answer> {
   const answer = await ask(request);
+  if (answer.status === 202) {
+    const { error, progress } = json<NotYet>(answer);
+    throw new Later(error, true, progress);
+  }
   if (answer.status >= 200 && answer.status < 300) return answer;
   throw new Problem(errorIn(answer) ?? `The server answered ${answer.status} to ${request.path}.`);
 }

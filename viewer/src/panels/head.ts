@@ -1,7 +1,8 @@
 // The head: the library, the search, the space, undo, theme and link.
 
+import { toCommand } from "../command";
 import type { Context } from "../context";
-import { dropdown, el, icon, iconButton } from "../dom";
+import { dropdown, el, type Icon, icon, iconButton } from "../dom";
 import type { Theme } from "../state";
 import { search } from "./search";
 
@@ -25,7 +26,14 @@ export function head(context: Context): HTMLElement {
       "div.group",
       ...undoButtons(context),
       themeButton(context),
-      options.address && linkButton(options.address),
+      options.address &&
+        copyButton("link", "Copy a link to this view", options.address, "The address bar has the link"),
+      copyButton(
+        "terminal",
+        "Copy the command that makes this picture",
+        () => toCommand(store.get()),
+        "The browser forbids it",
+      ),
     ),
   );
 }
@@ -60,18 +68,18 @@ function themeButton({ store }: Context): HTMLElement {
   return iconButton("theme", "Dark or light", () => store.set({ theme: next[store.get().scheme]! }));
 }
 
-function linkButton(address: () => string): HTMLElement {
-  const button = iconButton("link", "Copy a link to this view", () => {
-    navigator.clipboard.writeText(address()).then(
+function copyButton(name: Icon, label: string, text: () => string, otherwise: string): HTMLElement {
+  const button = iconButton(name, label, () => {
+    navigator.clipboard.writeText(text()).then(
       () => flash("Copied"),
-      () => flash("The address bar has the link"),
+      () => flash(otherwise),
     );
   });
-  const flash = (text: string) => {
-    button.replaceChildren(text);
+  const flash = (said: string) => {
+    button.replaceChildren(said);
     button.style.width = "auto";
     setTimeout(() => {
-      button.replaceChildren(icon("link"));
+      button.replaceChildren(icon(name));
       button.style.width = "";
     }, SAID);
   };

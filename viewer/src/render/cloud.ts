@@ -8,6 +8,7 @@ import { LineMaterial } from "three/addons/lines/LineMaterial.js";
 
 import type { Thumbnails } from "../thumbnails";
 import { turnArm, widen } from "./camera";
+import { toRenderer } from "./card";
 import type { SpaceMap } from "./maps";
 import { type Look, Spheres } from "./spheres";
 
@@ -43,10 +44,12 @@ export class Cloud {
   private ratio = 1;
 
   constructor(canvas: HTMLCanvasElement, names: readonly string[], thumbnails: Thumbnails) {
-    this.renderer = new THREE.WebGLRenderer({ canvas, alpha: true, antialias: true });
+    this.renderer = toRenderer({ canvas, alpha: true, antialias: true });
     this.camera.up.set(0, 0, 1);
     this.camera.position.set(1.2, -5.3, 0.7);
     this.controls = new OrbitControls(this.camera, canvas);
+    // Upwards and downwards a finger moves the page.
+    canvas.style.touchAction = "pan-y";
     this.controls.enableDamping = false;
     this.controls.minDistance = 0.6;
     this.controls.maxDistance = 14;

@@ -1,8 +1,9 @@
-// Taking the material home: its table, its recipe, its picture.
+// Taking the material home: its table, its recipe.
 
 import type { Context } from "../../context";
 import { download, el } from "../../dom";
 import { toDocument } from "../../recipe";
+import { materialName } from "../../title";
 
 const FORMATS: Readonly<Record<string, { text: string; suffix: string; title: string }>> = {
   merl: {
@@ -14,19 +15,13 @@ const FORMATS: Readonly<Record<string, { text: string; suffix: string; title: st
 };
 
 export function exports(context: Context): HTMLElement {
-  const { root, store } = context;
+  const { store } = context;
   const tables = store.get().library.exports.map((format, i) => tableButton(context, format, i === 0));
   const json = button("Recipe", "The weights, as `halfway mix` reads them", () => {
     const text = `${JSON.stringify(recipeIn(context), null, 1)}\n`;
-    download(new Blob([text], { type: "application/json" }), `${title(context)}.json`);
+    download(new Blob([text], { type: "application/json" }), `${materialName(store.get())}.json`);
   });
-  const png = button("Picture", "The picture, with a transparent background", () => {
-    // What is seen: the cover, where there is one.
-    const seen = [".hold", ".view"].map((view) => `.material ${view}:not([hidden])`);
-    const [canvas] = seen.map((view) => root.querySelector<HTMLCanvasElement>(view)).filter(Boolean);
-    canvas?.toBlob((blob) => blob && download(blob, `${title(context)}.png`));
-  });
-  const buttons = [...tables, json, png];
+  const buttons = [...tables, json];
   for (const each of buttons) each.disabled = true;
   let isReady = false;
   store.watch(["recipe"], ({ recipe }) => {
@@ -38,15 +33,16 @@ export function exports(context: Context): HTMLElement {
 }
 
 function tableButton(context: Context, format: string, isMain: boolean): HTMLButtonElement {
-  const { client, store } = context;
+  const { client, store, actions } = context;
   const { text, suffix, title: about } = FORMATS[format] ?? { text: format, suffix: format, title: "" };
   const element = button(text, about, async () => {
     element.disabled = true;
-    const name = `${title(context)}.${suffix}`;
+    const name = `${materialName(store.get())}.${suffix}`;
     try {
       download(await client.exported(format, recipeIn(context)), name);
+      actions.say("recipe", format, null);
     } catch (error) {
-      store.set({ problem: (error as Error).message });
+      actions.say("recipe", format, (error as Error).message);
     }
     element.disabled = false;
   });
@@ -61,10 +57,4 @@ function button(text: string, title: string, onclick: () => void): HTMLButtonEle
 function recipeIn({ store }: Context) {
   const { library, recipe } = store.get();
   return toDocument(library.name, recipe);
-}
-
-/** Of a file. */
-function title({ store }: Context): string {
-  const { stops, t, atPoint } = store.get();
-  return atPoint === null ? `${stops[0]}-to-${stops.at(-1)}-${t.toFixed(3)}` : "free-place";
 }

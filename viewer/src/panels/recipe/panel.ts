@@ -7,7 +7,7 @@ import { bodyColour } from "./body";
 import { exports } from "./exports";
 
 export function recipePanel(context: Context): HTMLElement {
-  const list = el("ol");
+  const list = el("ol", { tabindex: 0, "aria-label": "Materials" });
   const note = el("p.note");
   const rows = new Map<string, HTMLLIElement>();
   context.store.watch(["recipe"], ({ recipe }) => {

@@ -3,28 +3,32 @@
 import type { Context } from "../../context";
 import { el, icon, iconButton } from "../../dom";
 import { asCompared, comparedStop } from "../../state";
+import { notices } from "../notices";
 import { stopList } from "./stops";
 import { strip } from "./strip";
 
 export function routePanel(context: Context): HTMLElement {
   const { store } = context;
-  const problem = el("p.problem", { role: "alert" });
-  store.watch(["problem"], ({ problem: text }) => {
-    problem.textContent = text;
-    problem.hidden = text === null;
-  });
   const value = el("b");
   store.watch(["t"], ({ t }) => {
     value.textContent = t.toFixed(3);
   });
   const beside = el("div.line.wrap.beside", compareChoice(context), el("span.t", "t = ", value));
-  return el(
+  const behind = el("p.tag.behind", { role: "status" });
+  const panel = el(
     "section.panel.route",
     { "aria-label": "Route" },
-    el("div.line.wrap", playButton(context), stopList(context), beside),
+    el("div.line.stopped", playButton(context), stopList(context), beside),
     strip(context),
-    problem,
+    behind,
+    notices(context, "route"),
   );
+  store.watch(["behind"], ({ behind: shown }) => {
+    behind.textContent = `still shown: ${shown}`;
+    behind.hidden = shown === null;
+    context.root.classList.toggle("outdated", shown !== null);
+  });
+  return panel;
 }
 
 function playButton({ store }: Context): HTMLElement {
