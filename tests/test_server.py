@@ -4,9 +4,12 @@ import socket
 import threading
 import urllib.request
 from collections.abc import Iterable, Iterator
+from io import BytesIO
 from pathlib import Path
-from types import ModuleType
+from types import ModuleType, SimpleNamespace
 from typing import Any
+from urllib.parse import unquote
+from zipfile import ZipFile
 
 import numpy as np
 import pytest
@@ -19,7 +22,7 @@ from halfway.formats import write_merl
 from halfway.halfdiff import Grid
 from halfway.library import ProceduralLibrary
 from halfway.recipes import Recipe, mix
-from halfway.server import Page, create_app
+from halfway.server import Page, create_app, taking
 from halfway.server.blocks import Block
 from halfway.server.guard import MAX_BODY
 from halfway.server.page import Asset
@@ -254,7 +257,43 @@ def test_an_unknown_format_is_refused(client: TestClient) -> None:
         "/api/export/gltf", json={"library": "small", "weights": {"material-1": 1}}
     )
     assert answer.status_code == 400
-    assert "expected merl or bsdf" in answer.json()["error"]
+    assert "expected merl, bsdf, mtlx, glb" in answer.json()["error"]
+
+
+def test_a_fit_says_how_far_off_it_is(client: TestClient, monkeypatch: pytest.MonkeyPatch) -> None:
+    # Fitting takes seconds, and has its own tests.
+    monkeypatch.setattr(taking, "fit", lambda *_: SimpleNamespace(summary="off by 3.9% ±"))
+    monkeypatch.setattr(taking, "write_fit", lambda path, _: path.write_bytes(b"<materialx>"))
+    answer = client.post(
+        "/api/export/mtlx", json={"library": "small", "weights": {"material-1": 1}}
+    )
+    assert answer.content == b"<materialx>"
+    assert unquote(answer.headers["halfway-summary"]) == "off by 3.9% ±"
+
+
+def test_a_scene_is_a_zip_of_its_folder(client: TestClient) -> None:
+    answer = client.post(
+        "/api/export/pbrt-v4", json={"library": "small", "weights": {"material-1": 1}}
+    )
+    with ZipFile(BytesIO(answer.content)) as archive:
+        assert {"scene.pbrt", "material.bsdf"} <= set(archive.namelist())
+
+
+def test_a_measurement_becomes_a_material(small_library: ProceduralLibrary, tmp_path: Path) -> None:
+    client = TestClient(create_app(small_library), base_url=HOST)
+    refused = client.post("/api/materials/notes.binary", content=b"nothing")
+    assert refused.status_code == 400
+    assert refused.json()["error"].startswith("notes.binary ")
+    before = client.get("/api/tables/material-1").headers["etag"]
+    write_merl(tmp_path / "scan.binary", small_library.brdf("material-2"))
+    content = (tmp_path / "scan.binary").read_bytes()
+    assert client.post("/api/materials/scan.binary", content=content).json() == {"name": "scan"}
+    assert client.post("/api/materials/scan.binary", content=content).json()["name"] == "scan (2)"
+    summary = client.get("/api/library").json()
+    assert [each["name"] for each in summary["materials"]][-2:] == ["scan", "scan (2)"]
+    own, theirs = (client.get(f"/api/tables/{name}") for name in ("scan", "material-2"))
+    assert own.content == theirs.content
+    assert own.headers["etag"] != before
 
 
 def test_a_recipe_of_another_library_is_refused(client: TestClient) -> None:

@@ -5,6 +5,7 @@ import { materialName } from "./title";
 
 type Shown = Pick<
   State,
+  | "held"
   | "library"
   | "space"
   | "pace"
@@ -21,11 +22,12 @@ type Shown = Pick<
 
 export function toCommand(shown: Shown): string {
   const name = materialName(shown);
-  const { library, space, pace, stops, t, point } = shown;
+  const { held, library, space, pace, stops, t, point } = shown;
   const where = `--space ${space}`;
   const source = quoted(library.address);
+  const file = `${name}.binary`;
+  if (held) return `halfway mix ${quoted(`${name}.json`)} -o ${quoted(file)} && ${render(shown, file, name)}`;
   if (point !== null) {
-    const file = `${name}.binary`;
     const mix = `halfway mix ${source} --point=${point.join(",")} ${where} --clamp -o ${quoted(file)}`;
     return `${mix} && ${render(shown, file, name)}`;
   }

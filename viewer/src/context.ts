@@ -35,6 +35,11 @@ export interface Options {
   readonly address?: () => string;
   readonly theme?: Theme;
   readonly onTheme?: (theme: Theme) => void;
+  /** The shortlist of a library that was kept before, as text; and told when it is another. */
+  readonly kept?: (library: string) => string | null;
+  readonly onKept?: (library: string, text: string) => void;
+  /** The library has other materials: begin again at a fragment. */
+  readonly restart?: (fragment: string) => void;
   /** Where keys are listened to; the page's own element if it is left out. */
   readonly keys?: Document | HTMLElement;
 }

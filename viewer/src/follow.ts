@@ -3,6 +3,7 @@
 import type { Context } from "./context";
 import { toHash } from "./permalink";
 import { join, type Route, reversed } from "./route";
+import { toText } from "./shortlist";
 import { comparedSpace, LINKED, type Panel, type State } from "./state";
 import { comingUp, shownNames } from "./wanted";
 
@@ -14,6 +15,7 @@ export function follow(context: Context): void {
   fetchSpaces(context);
   fetchTables(context);
   keepLink(context);
+  keepShortlist(context);
   play(context);
 }
 
@@ -135,6 +137,15 @@ function keepLink({ store, options, signal }: Context): void {
   store.watch(LINKED, () => {
     clearTimeout(timer);
     timer = setTimeout(() => options.onFragment?.(toHash(store.get())), UNHURRIED);
+  });
+}
+
+/** The shortlist stays where the page stands, for each library. */
+function keepShortlist({ store, options }: Context): void {
+  let before = store.get().kept;
+  store.watch(["kept"], ({ kept, library }) => {
+    if (kept !== before) options.onKept?.(library.name, toText(library.name, kept));
+    before = kept;
   });
 }
 

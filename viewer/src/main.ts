@@ -9,6 +9,7 @@ import type { Theme } from "./state";
 import "./styles/window.css";
 
 const THEME = "halfway-theme";
+const KEPT = "halfway-shortlist ";
 
 // A page that was written says where its data are.
 const data = document.querySelector<HTMLMetaElement>("meta[name=halfway-data]")?.content;
@@ -19,6 +20,12 @@ mount(document.querySelector<HTMLElement>("#app")!, data ? files(data) : http, {
   address: () => location.href,
   theme: (localStorage.getItem(THEME) ?? "auto") as Theme,
   onTheme: (theme) => localStorage.setItem(THEME, theme),
+  kept: (library) => localStorage.getItem(KEPT + library),
+  onKept: (library, text) => localStorage.setItem(KEPT + library, text),
+  restart: (fragment) => {
+    history.replaceState(null, "", fragment);
+    location.reload();
+  },
   keys: document,
 }).then(
   // Another link in the address bar of the same page loads nothing anew.

@@ -18,10 +18,12 @@ import { materialPanel } from "./panels/material/panel";
 import { status } from "./panels/notices";
 import { recipePanel } from "./panels/recipe/panel";
 import { routePanel } from "./panels/route/panel";
+import { shortlistPanel } from "./panels/shortlist/panel";
 import { spacePanel } from "./panels/space/panel";
 import { fromHash, unknownIn } from "./permalink";
 import { Lights } from "./render/lights";
 import { Tables } from "./render/tables";
+import { fromText } from "./shortlist";
 import { Actions, createState, LINK, type State } from "./state";
 import type { Store } from "./store";
 import { Thumbnails } from "./thumbnails";
@@ -83,11 +85,13 @@ function show(
       spacePanel(context),
       materialPanel(context),
       routePanel(context),
+      shortlistPanel(context),
       side,
       status(context),
     ),
   );
   context.actions.say("route", LINK, unknownIn(options.fragment ?? "", library));
+  takeShortlist(context);
   follow(context);
   listenToKeys(context);
   listenToDrops(context);
@@ -98,6 +102,18 @@ function show(
     root.classList.remove("ready");
   };
   return { store, actions: context.actions, unmount };
+}
+
+/** What was kept before; of a library that has changed, what it still has. */
+function takeShortlist({ options, store, actions }: Context): void {
+  const { library } = store.get();
+  const text = options.kept?.(library.name);
+  if (!text) return;
+  try {
+    actions.keep(...fromText(text, "The shortlist in this browser", library));
+  } catch (error) {
+    actions.say("route", "shortlist", (error as Error).message);
+  }
 }
 
 /** The grid of a library, if the page can draw it. */

@@ -2,8 +2,10 @@
 
 import { Problem } from "./api/client";
 import type { Context } from "./context";
+import { toHash } from "./permalink";
 import { readMesh } from "./render/meshes";
 import { HOME } from "./scene";
+import { fromText } from "./shortlist";
 import type { Panel } from "./state";
 
 interface Kind {
@@ -12,7 +14,11 @@ interface Kind {
   readonly open: (context: Context, file: File) => Promise<void>;
 }
 
-const KINDS: readonly Kind[] = [{ suffixes: ["ply", "obj"], what: "a mesh", open: openMesh }];
+const KINDS: readonly Kind[] = [
+  { suffixes: ["ply", "obj"], what: "a mesh", open: openMesh },
+  { suffixes: ["binary", "bsdf", "h5"], what: "a measurement", open: addMeasurement },
+  { suffixes: ["json"], what: "a recipe or a shortlist", open: openRecipes },
+];
 
 /** Read a file and show what is in it; what is wrong with it is said in `panel`. */
 export async function openFile(context: Context, file: File, panel: Panel): Promise<void> {
@@ -65,6 +71,29 @@ function offered(): string {
   return KINDS.map(({ what, suffixes }) => `${what} (${suffixes.map((each) => `.${each}`).join(", ")})`).join(
     ", ",
   );
+}
+
+/** A measurement becomes a material of the library, and the stop that was chosen. */
+async function addMeasurement({ client, options, store, actions }: Context, file: File): Promise<void> {
+  if (!client.add || !options.restart)
+    throw new Problem(`${file.name} is read by a server alone: start \`halfway view\`, and drop it there.`);
+  actions.setWaiting({ text: `Reading ${file.name} …`, share: null, computed: true });
+  try {
+    const name = await client.add(file);
+    const state = store.get();
+    const stops = state.stops.toSpliced(state.slot, state.inserting ? 0 : 1, name);
+    const t = state.slot / Math.max(stops.length - 1, 1);
+    options.restart(toHash({ ...state, stops, t, point: null }));
+  } finally {
+    actions.setWaiting(null);
+  }
+}
+
+/** A recipe is shown, and kept; a shortlist joins the one that is there. */
+async function openRecipes({ store, actions }: Context, file: File): Promise<void> {
+  const opened = fromText(await file.text(), file.name, store.get().library);
+  actions.keep(...opened);
+  if (opened.length === 1) actions.hold(opened[0]!);
 }
 
 async function openMesh({ store }: Context, file: File): Promise<void> {

@@ -13,7 +13,8 @@ export function toHash(linked: Linked): string {
     stops: linked.stops.join(","),
     t: short(linked.t, 4),
     point: (linked.point ?? []).map((x) => String(Number(x.toPrecision(7)))).join(","),
-    compare: linked.compare,
+    // The shortlist stays with the person who has it.
+    compare: linked.compare.startsWith("kept:") ? "" : linked.compare,
     // A mesh stays with the person who has its file.
     shape: linked.shape === "mesh" ? "" : linked.shape,
     light: linked.light,

@@ -6,6 +6,7 @@ import { clamp } from "./numbers";
 import { fromDocument, type Ingredient, only } from "./recipe";
 import { type Route, recipeAt } from "./route";
 import { HOME, type View } from "./scene";
+import { type Kept, recipeOf } from "./shortlist";
 import { createStore, type Store } from "./store";
 
 export type Theme = "auto" | "light" | "dark";
@@ -48,7 +49,13 @@ export interface State extends View {
   readonly point: readonly number[] | null;
   /** What the server says of it. */
   readonly atPoint: PositionView | null;
-  /** What is shown beside: "" nothing, `stop:NAME` a material, else a space, whose way through the same stops it is. */
+  /** What a person kept, in their order; and the one of it that is shown instead of the route. */
+  readonly kept: readonly Kept[];
+  readonly held: Kept | null;
+  /**
+   * What is shown beside: "" nothing, `stop:NAME` a material, `kept:ID` one of the shortlist, else a space, whose way through
+   * the same stops it is.
+   */
   readonly compare: string;
   readonly otherRoute: Route | null;
   readonly otherRecipe: readonly Ingredient[];
@@ -79,6 +86,7 @@ const MAX_PAST = 100;
 /** Moves of a free point that follow each other so soon, in milliseconds, are one act. */
 const ONE_ACT = 700;
 const STOP = "stop:";
+const KEPT = "kept:";
 /** Causes of notices: what was chosen, and what a link says. */
 const CHOICE = "choice";
 export const LINK = "link";
@@ -111,6 +119,8 @@ export function createState(library: LibrarySummary, linked: Partial<Linked>, th
     route: null,
     recipe: [],
     atPoint: null,
+    kept: [],
+    held: null,
     otherRoute: null,
     otherRecipe: [],
     split: 0.5,
@@ -131,7 +141,17 @@ export function comparedStop(compare: string): string | null {
 
 /** The space that is compared with; null when it is a material, or nothing. */
 export function comparedSpace(compare: string): string | null {
-  return compare === "" || compare.startsWith(STOP) ? null : compare;
+  return compare === "" || compare.startsWith(STOP) || compare.startsWith(KEPT) ? null : compare;
+}
+
+/** The one of the shortlist that is compared with; null when it is anything else. */
+export function comparedKept({ compare, kept }: Pick<State, "compare" | "kept">): Kept | null {
+  return kept.find(({ id }) => compare === KEPT + id) ?? null;
+}
+
+/** What one of the shortlist is called where it is compared with. */
+export function asComparedKept({ id }: Kept): string {
+  return KEPT + id;
 }
 
 /** What a material is called where it is compared with. */
@@ -160,6 +180,7 @@ export class Actions {
       t: clamped,
       point: null,
       atPoint: null,
+      held: null,
       ...(route && { recipe: recipeAt(route, clamped) }),
       ...(!route && waiting?.computed && { recipe: nearest(stops, clamped) }),
       ...(otherRoute && { otherRecipe: recipeAt(otherRoute, clamped) }),
@@ -167,10 +188,10 @@ export class Actions {
   };
 
   setRoute = (route: Route): void => {
-    const { goal, atPoint, recipe } = this.store.get();
+    const { goal, atPoint, held, recipe } = this.store.get();
     // Where the stops are is known with the route: at perceptual pace they are not even.
     const t = (goal === null ? undefined : route.stops[goal]) ?? this.store.get().t;
-    this.store.set({ route, t, goal: null, recipe: atPoint ? recipe : recipeAt(route, t) });
+    this.store.set({ route, t, goal: null, recipe: atPoint || held ? recipe : recipeAt(route, t) });
   };
 
   /** What the page waits for. Before any route is known, and that takes long, the nearest stop is shown. */
@@ -185,7 +206,7 @@ export class Actions {
     const now = performance.now();
     if (now - this.lastMove > ONE_ACT) this.remember();
     this.lastMove = now;
-    this.store.set({ point, playing: false });
+    this.store.set({ point, held: null, playing: false });
   };
 
   setAtPoint = (atPoint: PositionView): void => {
@@ -194,7 +215,34 @@ export class Actions {
 
   compareWith = (compare: string): void => {
     const stop = comparedStop(compare);
-    this.store.set({ compare, otherRoute: null, otherRecipe: stop === null ? [] : only(stop) });
+    const kept = comparedKept({ ...this.store.get(), compare });
+    const otherRecipe = stop !== null ? only(stop) : kept ? recipeOf(kept) : [];
+    this.store.set({ compare, otherRoute: null, otherRecipe });
+  };
+
+  /** Keep a material; the last of the shortlist. */
+  keep = (...kept: readonly Kept[]): void => this.store.set({ kept: [...this.store.get().kept, ...kept] });
+
+  /** Another name or note, or with null away with it. */
+  changeKept = (id: string, change: Partial<Pick<Kept, "name" | "note">> | null): void => {
+    const { kept, held, compare } = this.store.get();
+    const next = kept.flatMap((each) => (each.id !== id ? [each] : change ? [{ ...each, ...change }] : []));
+    this.store.set({ kept: next, held: next.find((each) => each.id === held?.id) ?? null });
+    if (compare === KEPT + id && change === null) this.compareWith("");
+    if (held?.id === id && change === null) this.setT(this.store.get().t);
+  };
+
+  moveKept = (id: string, by: number): void => {
+    const { kept } = this.store.get();
+    const from = kept.findIndex((each) => each.id === id);
+    const to = clamp(from + by, 0, kept.length - 1);
+    this.store.set({ kept: kept.toSpliced(from, 1).toSpliced(to, 0, kept[from]!) });
+  };
+
+  /** Show one of the shortlist; the route stays where it is. */
+  hold = (held: Kept): void => {
+    if (this.store.get().point !== null) this.remember();
+    this.store.set({ held, recipe: recipeOf(held), point: null, atPoint: null, playing: false });
   };
 
   setOtherRoute = (otherRoute: Route): void => {
@@ -284,7 +332,7 @@ export class Actions {
     this.lastMove = Number.NEGATIVE_INFINITY;
     // Back on the same route, its recipe holds; on another one it comes with the answer.
     const recipe = next.point === null && route ? { recipe: recipeAt(route, t) } : {};
-    this.store.set({ ...next, slot, inserting: false, atPoint: null, ...recipe });
+    this.store.set({ ...next, slot, inserting: false, atPoint: null, held: null, ...recipe });
   }
 
   /** The present whereabouts are one undo away; nothing is ahead of them. */
@@ -301,6 +349,11 @@ export class Actions {
 /** The recipe of the stop that is nearest where the route is not known. */
 function nearest(stops: readonly string[], t: number): Ingredient[] {
   return only(stops[Math.round(t * (stops.length - 1))]!);
+}
+
+/** Whether what is shown is not on the route. */
+export function isAway({ atPoint, held }: Pick<State, "atPoint" | "held">): boolean {
+  return atPoint !== null || held !== null;
 }
 
 /** A pair that shows something, where the library has it. */

@@ -15,7 +15,7 @@ from fastapi import FastAPI
 
 Send = Callable[[dict[str, Any], list[bytes]], None]
 ORIGIN = "http://localhost"
-HEADERS = ("content-type", "halfway-shape", "halfway-scale")
+HEADERS = ("content-type", "halfway-shape", "halfway-scale", "halfway-summary")
 """What the page reads of an answer's headers."""
 
 

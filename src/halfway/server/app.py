@@ -8,7 +8,8 @@
     GET  /api/tables/{material}                  a table as half floats (`blocks`)
     GET  /api/thumbnails                         small pictures of all materials, as half floats
     GET  /api/environment                        the studio, as half floats
-    POST /api/export/{format}                    a recipe's file: merl or bsdf
+    POST /api/export/{format}                    a recipe's file (`taking`)
+    POST /api/materials/{file}                   a measurement that is a material from now on: its file
     GET  /api/docs.json                          this, as OpenAPI
 
 Every mistake is answered as ``{"error": "one line"}``. What takes longer than the explorer's patience is answered with 202 and how far
@@ -19,21 +20,24 @@ from collections.abc import AsyncIterator, Callable, Iterable, Mapping
 from importlib.metadata import version
 from threading import Thread
 from typing import Annotated, Any
+from urllib.parse import quote
 
 from fastapi import FastAPI, Path, Request, Response
 from fastapi.exceptions import RequestValidationError
 from fastapi.responses import JSONResponse, StreamingResponse
+from starlette.concurrency import run_in_threadpool
 from starlette.exceptions import HTTPException
 
 from ..errors import HalfwayError
 from ..library import Library
 from ..tasks import HERE, Work
 from .blocks import Block
-from .explorer import SUFFIXES, Explorer
+from .explorer import Explorer
 from .guard import LOOPBACK, Guard
 from .making import NotYetError
 from .page import Asset, Page
 from .schema import (
+    Added,
     LegView,
     LibrarySummary,
     NotYet,
@@ -43,6 +47,7 @@ from .schema import (
     RecipeDocument,
     SpaceView,
 )
+from .taking import SUFFIXES
 
 Name = Annotated[str, Path(max_length=200)]
 MISTAKES: dict[int | str, dict[str, Any]] = {400: {"model": Problem}, 404: {"model": Problem}}
@@ -121,21 +126,26 @@ def _add_queries(app: FastAPI, explorer: Explorer) -> None:
 
     @app.post("/api/export/{format}", response_class=Response, responses=BYTES)
     def export(format: Name, recipe: RecipeDocument) -> StreamingResponse:
-        parts = explorer.export(format, recipe)
+        parts, summary = explorer.export(format, recipe)
         headers = {
             "Content-Length": str(sum(map(len, parts))),
+            "Halfway-Summary": quote(summary),
             "Content-Disposition": f'attachment; filename="halfway{SUFFIXES[format]}"',
         }
         return StreamingResponse(
             _chunks(parts), media_type="application/octet-stream", headers=headers
         )
 
+    @app.post("/api/materials/{file}")
+    async def add(file: Name, request: Request) -> Added:
+        content = await request.body()
+        return Added(name=await run_in_threadpool(explorer.add, file, content))
+
 
 def _add_blocks(app: FastAPI, explorer: Explorer) -> None:
-    # The checksum names every sample of the library, so an answer that the browser kept is good.
-    etag = f'"{explorer.library.checksum[:16]}-1"'
-
     def answer(request: Request, of: Callable[[], Block]) -> Response:
+        # The checksum names every sample of the library, so an answer that the browser kept is good.
+        etag = f'"{explorer.library.checksum[:16]}-1"'
         if request.headers.get("if-none-match") == etag:
             return _unchanged(etag, REVALIDATED)
         block = of()

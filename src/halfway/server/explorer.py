@@ -9,15 +9,14 @@ from contextlib import suppress
 from dataclasses import replace
 from functools import lru_cache, partial
 from importlib.metadata import version
-from pathlib import Path
-from tempfile import TemporaryDirectory
+from pathlib import PurePath
+from threading import Lock
 
 import numpy as np
 
 from ..components import Pca
-from ..errors import HalfwayError, OutputError, RecipeError, SpaceError
-from ..formats import MerlFile, encode_header, write_brdf
-from ..library import Library
+from ..errors import HalfwayError, RecipeError, SpaceError
+from ..library import Joined, Library
 from ..look import Looks
 from ..recipes import Mixer, Recipe
 from ..render import SCENES, studio
@@ -41,6 +40,7 @@ from .schema import (
     SpaceView,
     WeightTable,
 )
+from .taking import SUFFIXES, Taken, read, written
 
 N_AXES = 3
 """Scores that can be looked at together."""
@@ -49,8 +49,6 @@ N_TABLES = 16
 N_LEGS = 1000
 """Legs kept ready to be sent, some 10 kB each."""
 MAX_STOPS = 32
-SUFFIXES = {"merl": ".binary", "bsdf": ".bsdf"}
-"""Formats to take a material home in."""
 
 
 class Explorer:
@@ -63,10 +61,15 @@ class Explorer:
     def __init__(
         self, library: Library, *, work: Work = HERE, patience: float | None = None
     ) -> None:
-        self.library = library
         self._patience = patience
-        progress = Progress(work.track)
-        self._work = replace(work, track=progress)
+        self._progress = Progress(work.track)
+        self._work = replace(work, track=self._progress)
+        self._adding = Lock()
+        self._begin(library)
+
+    def _begin(self, library: Library) -> None:
+        self.library = library
+        progress = self._progress
         self._looks = Once(partial(Looks.fit, library, work=self._work), progress)
         self._spaces = {
             name: Once(partial(make_space, name, library, work=self._work), progress)
@@ -157,29 +160,25 @@ class Explorer:
         picture = studio()
         return Block.of(picture, np.ones(picture.shape[:-1]))
 
-    def export(self, format: str, document: RecipeDocument) -> list[bytes | memoryview]:
-        """The file of a recipe, in parts: what ``halfway mix`` writes."""
-        if format not in SUFFIXES:
-            raise OutputError(
-                f"{format!r} is no format to export: expected {' or '.join(SUFFIXES)}."
-            )
+    def export(self, format: str, document: RecipeDocument) -> Taken:
+        """The file of a recipe."""
         recipe = Recipe.from_json(document.model_dump())
         if recipe.library.name != self.library.name:
             raise RecipeError(
                 f"the recipe is of the library {recipe.library.name!r}, and this explorer shows {self.library.name!r}: "
                 "open that library with `halfway view`."
             )
-        table = self._mixer.mix(recipe)
-        if format == "merl":
-            merl = MerlFile.from_table(table)
-            return [
-                encode_header(merl.grid),
-                np.ascontiguousarray(merl.samples, "<f8").data.cast("B"),
-            ]
-        with TemporaryDirectory(prefix="halfway-") as folder:
-            path = Path(folder) / f"table{SUFFIXES[format]}"
-            write_brdf(path, table)
-            return [path.read_bytes()]
+        return written(self._mixer.mix(recipe), format, origin=self.library.origin.description)
+
+    def add(self, file: str, content: bytes) -> str:
+        """Take the measurement in a file in, beside the library's materials, until the explorer ends; what it is called."""
+        brdf = read(PurePath(file).name, content)
+        with self._adding:
+            stem = PurePath(file).stem
+            taken = [name for name in self.library.names if name.partition(" (")[0] == stem]
+            name = f"{stem} ({len(taken) + 1})" if taken else stem
+            self._begin(Joined(self.library, name, brdf))
+        return name
 
     def _first_scores(self) -> Embedding:
         """The first scores of all channels, of which nothing is a point to go to."""

@@ -181,6 +181,12 @@ class PositionView(Model):
     """Whether the point asked for is a mix."""
 
 
+class Added(Model):
+    """A measurement that is a material of the library now."""
+
+    name: str
+
+
 class BlockFile(Model):
     """What a file of half floats holds."""
 

@@ -31,6 +31,12 @@ export interface Block {
   readonly scale: readonly [number, number, number];
 }
 
+/** A file, and a line on how well it stands for the table where it is not the table. */
+export interface Exported {
+  readonly file: Blob;
+  readonly summary: string;
+}
+
 /** What the page asks for; every failure that a person can act on is a `Problem`. */
 export interface Client {
   readonly library: () => Promise<LibrarySummary>;
@@ -43,6 +49,8 @@ export interface Client {
   readonly environment: () => Promise<Block>;
   /** One material's table; `onProgress` is told the share that has come, in [0, 1]. */
   readonly table: (name: string, onProgress?: (share: number) => void) => Promise<Block>;
-  /** The mixed table as a file, in one of the library's `exports`. */
-  readonly exported: (format: string, recipe: RecipeDocument) => Promise<Blob>;
+  /** A recipe's file, in one of the library's `exports`. */
+  readonly exported: (format: string, recipe: RecipeDocument) => Promise<Exported>;
+  /** Takes a file of a measurement in, as a material of the library from now on; who cannot has no such function. */
+  readonly add?: (file: File) => Promise<string>;
 }

@@ -1,7 +1,7 @@
 // Asking the server that served the page.
 
 import { type Client, Later } from "./client";
-import { type Ask, clientOver } from "./requests";
+import { type Ask, adder, clientOver } from "./requests";
 
 const AWAY =
   "The server does not answer: is `halfway view` still running in its terminal? What is shown stays, and the page goes on when it answers.";
@@ -17,7 +17,7 @@ const ask: Ask = async ({ method, path, body, signal, onProgress }) => {
   return { status: answer.status, headers: new Map(answer.headers), body: await read(answer, onProgress) };
 };
 
-export const http: Client = clientOver(ask);
+export const http: Client = { ...clientOver(ask), add: adder(ask) };
 
 async function fetched(path: string, options: RequestInit): Promise<Response> {
   try {

@@ -52,6 +52,7 @@ export function patient(
     table: again(client.table),
     // A person asked, and is there to be answered.
     exported: client.exported,
+    ...(client.add && { add: client.add }),
   };
 }
 

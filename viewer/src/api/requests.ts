@@ -2,13 +2,13 @@
 // A mistake comes back as {"error": "one line"} and is thrown as a `Problem`.
 
 import { type Block, type Client, Later, Problem } from "./client";
-import type { NotYet } from "./schema";
+import type { Added, NotYet } from "./schema";
 
 export interface Request {
   readonly method: "GET" | "POST";
   readonly path: string;
-  /** JSON. */
-  readonly body?: string;
+  /** JSON, or a file where the server is asked over HTTP. */
+  readonly body?: string | File;
   readonly signal?: AbortSignal;
   readonly onProgress?: (share: number) => void;
 }
@@ -37,9 +37,19 @@ export function clientOver(ask: Ask): Client {
     environment: async () => block(await get("api/environment")),
     table: async (name, onProgress = () => {}) =>
       block(await said(ask, { method: "GET", path: `api/tables/${encodeURIComponent(name)}`, onProgress })),
-    exported: async (format, recipe) =>
-      new Blob([(await post(`api/export/${encodeURIComponent(format)}`, recipe)).body]),
+    exported: async (format, recipe) => {
+      const { headers, body } = await post(`api/export/${encodeURIComponent(format)}`, recipe);
+      return { file: new Blob([body]), summary: decodeURIComponent(headers.get("halfway-summary") ?? "") };
+    },
   };
+}
+
+/** Takes a file in by an `Ask` that carries files. */
+export function adder(ask: Ask): NonNullable<Client["add"]> {
+  return async (file) =>
+    json<Added>(
+      await said(ask, { method: "POST", path: `api/materials/${encodeURIComponent(file.name)}`, body: file }),
+    ).name;
 }
 
 async function said(ask: Ask, request: Request): Promise<Answer> {

@@ -126,6 +126,11 @@ export interface PositionView {
   readonly inside: boolean;
 }
 
+/** A measurement that is a material of the library now. */
+export interface Added {
+  readonly name: string;
+}
+
 /** What a file of half floats holds. */
 export interface BlockFile {
   readonly shape: readonly number[];

@@ -18,7 +18,7 @@ export function pictureButton(context: Context, panel: () => HTMLElement): HTMLE
     background = value;
   });
   const save = el("button.button.main", { type: "button" }, "Save");
-  const note = el("span.note", { role: "status" });
+  const note = el("span.quiet", { role: "status" });
   const form = popover(
     "Picture",
     el("label.line.choice", "Width and height", size, "pixels"),

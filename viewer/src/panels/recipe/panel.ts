@@ -3,6 +3,7 @@
 import type { Context } from "../../context";
 import { el } from "../../dom";
 import { CHANNELS, type Ingredient, meanWeight } from "../../recipe";
+import { notices } from "../notices";
 import { bodyColour } from "./body";
 import { exports } from "./exports";
 
@@ -30,6 +31,7 @@ export function recipePanel(context: Context): HTMLElement {
     list,
     bodyColour(context),
     exports(context),
+    notices(context, "recipe"),
   );
 }
 

@@ -2,7 +2,7 @@
 
 import type { Context } from "../../context";
 import { el, icon, iconButton } from "../../dom";
-import { asCompared, comparedStop } from "../../state";
+import { asCompared, asComparedKept, comparedStop } from "../../state";
 import { notices } from "../notices";
 import { stopList } from "./stops";
 import { strip } from "./strip";
@@ -53,10 +53,16 @@ function compareChoice({ store, actions }: Context): HTMLElement {
     el("optgroup", { label: "the same t in" }, ...spaces),
     materials,
   );
-  store.watch(["compare", "stops"], ({ compare, stops }) => {
+  const shortlist = el("optgroup", { label: "the shortlist" });
+  select.append(shortlist);
+  store.watch(["compare", "stops", "kept"], ({ compare, stops, kept }) => {
     const own = comparedStop(compare);
     const names = [...new Set([...stops, ...(own === null ? [] : [own])])];
     materials.replaceChildren(...names.map((name) => el("option", { value: asCompared(name) }, name)));
+    shortlist.replaceChildren(
+      ...kept.map((each) => el("option", { value: asComparedKept(each) }, each.name)),
+    );
+    shortlist.hidden = kept.length === 0;
     select.value = compare;
   });
   return el("label.line.choice", "compare with", select);

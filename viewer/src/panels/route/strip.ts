@@ -4,7 +4,7 @@
 import type { Context } from "../../context";
 import { el, onResize, style } from "../../dom";
 import { type Route, recipeAt } from "../../route";
-import { comparedSpace } from "../../state";
+import { comparedSpace, isAway } from "../../state";
 
 /** Of the strip, in CSS pixels, however many rows it has; and of the ticks below each. Its height is in the style sheet, too. */
 const HEIGHT = 68;
@@ -26,7 +26,7 @@ export function strip(context: Context): HTMLElement {
     draw();
   });
   store.watch(["route", "otherRoute", "scheme", "pictured"], draw);
-  store.watch(["atPoint"], ({ atPoint }) => element.classList.toggle("away", atPoint !== null));
+  store.watch(["atPoint", "held"], (state) => element.classList.toggle("away", isAway(state)));
   store.watch(["space", "compare"], ({ space, compare }) => {
     const other = comparedSpace(compare);
     const rows = other === null ? [] : [space, other];
