@@ -19,6 +19,7 @@ export function listenToKeys(context: Context): void {
       actions.setT(store.get().t + step(event));
     else if (event.key === "ArrowLeft" && !target.matches("input")) actions.setT(store.get().t - step(event));
     else if (event.key.toLowerCase() === "p") keepShown(context);
+    else if (event.key === "?") root.querySelector<HTMLElement>(".popover.help")?.togglePopover();
     else if (event.key === "Home" && !target.matches("input")) actions.setT(0);
     else if (event.key === "End" && !target.matches("input")) actions.setT(1);
     else return;

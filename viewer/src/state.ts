@@ -359,6 +359,6 @@ export function isAway({ atPoint, held }: Pick<State, "atPoint" | "held">): bool
 /** A pair that shows something, where the library has it. */
 function defaultStops({ materials }: LibrarySummary): string[] {
   const names = materials.map(({ name }) => name);
-  const wished = ["gold-metallic-paint", "blue-acrylic"].filter((name) => names.includes(name));
+  const wished = ["specular-maroon-phenolic", "gold-paint"].filter((name) => names.includes(name));
   return wished.length === 2 ? wished : [names[0]!, names.at(-1)!];
 }

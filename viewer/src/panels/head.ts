@@ -1,9 +1,11 @@
 // The head: the library, the search, the space, undo, theme and link.
 
+import type { LibrarySummary } from "../api/schema";
 import { toCommand } from "../command";
 import type { Context } from "../context";
 import { dropdown, el, type Icon, icon, iconButton } from "../dom";
 import type { Theme } from "../state";
+import { helpButton } from "./help";
 import { search } from "./search";
 
 /** Milliseconds that a button says what it did. */
@@ -19,6 +21,8 @@ export function head(context: Context): HTMLElement {
     "header.line.head",
     el("h1.line.brand", el("i"), "halfway"),
     el("p.cut.about", { title: `${about}\n${library.source}\n${library.licence}` }, about),
+    isStandIn(library) &&
+      el("span.badge", { title: `${library.source}\n${library.licence}` }, "stand-ins, not measurements"),
     search(context),
     choice(context, "space", "Space", spaces),
     paces.length > 1 && choice(context, "pace", "Pace", paces),
@@ -34,8 +38,14 @@ export function head(context: Context): HTMLElement {
         () => toCommand(store.get()),
         "The browser forbids it",
       ),
+      helpButton(),
     ),
   );
+}
+
+/** Fits say so in their library's one line. */
+function isStandIn({ description }: LibrarySummary): boolean {
+  return description.includes("stand-in");
 }
 
 function choice(

@@ -9,8 +9,15 @@ import { asComparedKept } from "../../state";
 import { shortName } from "../../title";
 import { takeAll } from "./take";
 
-const EMPTY =
-  "Pin what you like, compare any two, and take them all home. Recipes and shortlists are dropped anywhere.";
+/** What to do first, until something is kept. */
+const STEPS = [
+  ["1", "Drag along the row of spheres: the material changes, with its exact table."],
+  [
+    "2",
+    "Click a material in the space, or search: it replaces the stop with the ring. Or drop a measurement in.",
+  ],
+  ["3", "Pin what you like here, compare any two, take them home: Blender, Mitsuba, USD, pbrt."],
+] as const;
 
 export function shortlistPanel(context: Context): HTMLElement {
   const { store } = context;
@@ -23,7 +30,8 @@ export function shortlistPanel(context: Context): HTMLElement {
   const take = takeAll(context);
   store.watch(["kept", "held", "compare", "pictured"], (state) => {
     const items = state.kept.map((each) => item(context, each));
-    list.replaceChildren(...(items.length ? items : [el("li.note", EMPTY)]));
+    const steps = STEPS.map(([number, text]) => el("li.step", el("b", number), text));
+    list.replaceChildren(...(items.length ? items : steps));
     take.hidden = items.length === 0;
   });
   store.watch(["recipe"], ({ recipe }) => {

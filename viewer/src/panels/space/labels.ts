@@ -31,7 +31,8 @@ const ARROWS: Readonly<Record<string, readonly [number, number]>> = {
 
 export class Labels {
   readonly element: HTMLElement;
-  private readonly names = el("div.names", { "aria-hidden": "true" });
+  private readonly names = el("div.tags", { "aria-hidden": "true" });
+  private readonly ticks = el("div.tags", { "aria-hidden": "true" });
   /** The present material: where it can be moved off the route, arrows do so. */
   private readonly here: HTMLButtonElement;
   /** Where a person pointed, when no mix is there. */
@@ -54,7 +55,18 @@ export class Labels {
         );
       },
     });
-    this.element = el("div.labels", this.names, this.asked, this.here);
+    this.element = el("div.labels", this.ticks, this.names, this.asked, this.here);
+  }
+
+  /** Values along the axes of a map. */
+  drawTicks(cloud: Cloud, ticks: readonly { readonly text: string; readonly at: Vector3 }[]): void {
+    const marks = ticks.map(({ text, at }) => {
+      const { x, y } = cloud.project(at);
+      const element = el("span.tick", text);
+      element.style.transform = `translate(${x}px, ${y}px) translate(-50%, -50%)`;
+      return element;
+    });
+    this.ticks.replaceChildren(...marks);
   }
 
   draw(cloud: Cloud, width: number, named: readonly Named[], { here, asked, isFree }: Marks): void {

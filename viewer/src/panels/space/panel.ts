@@ -13,6 +13,7 @@ import { Cloud } from "../../render/cloud";
 import { CoordinateMap } from "../../render/maps";
 import { recipeAt } from "../../route";
 import type { State } from "../../state";
+import { short } from "../brdf/plot";
 import { turnOnKeys } from "../material/orbit";
 import { notices, sayWhenLost } from "../notices";
 import { Labels } from "./labels";
@@ -22,6 +23,8 @@ import { shelf } from "./shelf";
 const APPEARANCE = "Looks";
 /** Milliseconds between drawings: what moves is the material, and this stands beside it. */
 const BESIDE = 60;
+/** Values that are written along each axis: at its ends, for in the middle all axes meet. */
+const TICKS = 2;
 const ROUTE_POINTS = 160;
 /** How near the pointer has to be to take the present material, in CSS pixels. */
 const MARKER = 11;
@@ -68,6 +71,7 @@ class SpacePicture {
   private readonly appearance: Appearance;
   /** The name of the map that is chosen. */
   private chosen = APPEARANCE;
+  private axes: ReturnType<CoordinateMap["axes"]> = [];
   /** Where the present material is. */
   private here: Vector3 | null = null;
   /** Where a person pointed, when no mix is there. */
@@ -127,6 +131,10 @@ class SpacePicture {
     const { embedding } = this;
     const map = embedding ? new CoordinateMap(embedding, this.context.names) : this.appearance;
     this.cloud.arrange(map, embedding?.edges ?? []);
+    this.axes = map instanceof CoordinateMap ? map.axes(TICKS) : [];
+    this.cloud.setAxes(
+      this.axes.flatMap(({ ticks }) => ticks.slice(1).map(({ at }, i) => [ticks[i]!.at, at] as const)),
+    );
     this.traceRoute();
     this.putRecipe();
     this.describe();
@@ -210,6 +218,15 @@ class SpacePicture {
     }));
     const { cloud, here, asked } = this;
     this.labels.draw(cloud, this.canvas.clientWidth, named, { here, asked, isFree: this.isFree });
+    this.labels.drawTicks(
+      cloud,
+      this.axes.flatMap(({ name, ticks }) =>
+        ticks.map(({ value, at }, i) => ({
+          text: i === ticks.length - 1 ? `${inWords(name)} ${short(value)}` : short(value),
+          at,
+        })),
+      ),
+    );
   }
 
   private pointer(): Pointer {
@@ -263,7 +280,7 @@ class SpacePicture {
 /** What an axis is called on the page. */
 function inWords(axis: string): string {
   const body = /^body.([rgb])$/.exec(axis);
-  if (body) return `body colour, ${{ r: "red", g: "green", b: "blue" }[body[1] as "r" | "g" | "b"]}`;
+  if (body) return `body ${{ r: "red", g: "green", b: "blue" }[body[1] as "r" | "g" | "b"]}`;
   return axis;
 }
 
