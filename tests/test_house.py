@@ -15,7 +15,7 @@ FILES = sorted(SOURCE.rglob("*.py"))
 FOLDERS = sorted(path.parent.name for path in SOURCE.glob("*/__init__.py"))
 KINDS = {
     "space": {"AnchoredSpace", "PaperSpace", "LinearSpace"},
-    "library": {"StoredLibrary", "ProceduralLibrary", "CompactLibrary", "Subset"},
+    "library": {"StoredLibrary", "ProceduralLibrary", "CompactLibrary", "Subset", "Joined"},
 }
 VAGUE = {"found", "made", "told", "place", "places", "thing", "things", "stuff", "data", "helper"}
 """Words that say nothing to who has not read the neighbours."""

@@ -15,7 +15,7 @@ from halfway.components import Pca
 from halfway.errors import FormatError, LibraryError, OutputError
 from halfway.formats import write_merl
 from halfway.halfdiff import Grid
-from halfway.library import ProceduralLibrary, StoredLibrary
+from halfway.library import Joined, ProceduralLibrary, StoredLibrary
 from halfway.tasks import Work
 
 
@@ -315,3 +315,15 @@ def test_what_is_no_table_is_sampled_on_the_grid_asked_for(folder, tmp_path):
     assert (built.grid, built.names[0]) == (grid, "matte-0000")
     with pytest.raises(LibraryError, match=r"2 different grids .*4 x 3 x 2"):
         build_library([folder], tmp_path / "t.brdflib", grid=grid)
+
+
+def test_a_material_is_joined_to_a_library_for_a_while(stored):
+    (own,) = random_tables(1, stored.grid, seed=5).values()
+    joined = Joined(stored, "own", own)
+    assert joined.names == (*stored.names, "own")
+    assert joined.material_checksums[:-1] == stored.material_checksums
+    assert joined.checksum != stored.checksum
+    rows = np.stack([joined.row(i) for i in range(len(joined))], axis=1)
+    np.testing.assert_array_equal(rows[:, -1], own.values.reshape(3, -1))
+    for block in joined.blocks():
+        np.testing.assert_array_equal(joined.columns(block), rows[:, :, block])

@@ -3,14 +3,19 @@ import json
 import socket
 import threading
 import urllib.request
+from collections.abc import Iterable, Iterator
+from io import BytesIO
 from pathlib import Path
-from types import ModuleType
+from types import ModuleType, SimpleNamespace
+from typing import Any
+from urllib.parse import unquote
+from zipfile import ZipFile
 
 import numpy as np
 import pytest
 from fastapi.testclient import TestClient
 from numpy.testing import assert_allclose, assert_array_equal
-from patience import PATIENCE
+from patience import PATIENCE, wait_until
 
 from halfway.brdf import TabularBrdf
 from halfway.formats import write_merl
@@ -18,11 +23,12 @@ from halfway.formats.rgl_writer import Resolution
 from halfway.halfdiff import Grid
 from halfway.library import ProceduralLibrary
 from halfway.recipes import Recipe, mix
-from halfway.server import Page, create_app
+from halfway.server import Page, create_app, taking
 from halfway.server.blocks import Block
 from halfway.server.guard import MAX_BODY
 from halfway.server.page import Asset
 from halfway.space import PACES, SPACES, Route, make_space
+from halfway.tasks import Work
 
 ROOT = Path(__file__).parents[1]
 HOST = "http://127.0.0.1:8765"
@@ -88,6 +94,56 @@ def test_a_table_that_the_browser_has_is_not_sent_again(client: TestClient) -> N
     first = client.get("/api/tables/material-0")
     again = client.get("/api/tables/material-0", headers={"If-None-Match": first.headers["etag"]})
     assert (again.status_code, again.content) == (304, b"")
+
+
+@pytest.mark.parametrize("what", ["tables/material-3", "thumbnails", "environment"])
+def test_what_is_large_is_compressed_and_kept_by_its_content(client: TestClient, what: str) -> None:
+    plain = client.get(f"/api/{what}", headers={"Accept-Encoding": "identity"})
+    packed = client.get(f"/api/{what}", headers={"Accept-Encoding": "gzip"})
+    assert packed.headers["content-encoding"] == "gzip"
+    assert packed.content == plain.content
+    assert int(packed.headers["content-length"]) < len(plain.content)
+    again = client.get(f"/api/{what}", headers={"If-None-Match": plain.headers["etag"]})
+    assert (again.status_code, again.content) == (304, b"")
+
+
+def test_files_named_after_their_content_are_never_asked_for_again(
+    small_library: ProceduralLibrary,
+) -> None:
+    page = Page(
+        {name: Asset(b"1", "text/javascript", '"1"') for name in ("index.html", "assets/a-1b.js")}
+    )
+    client = TestClient(create_app(small_library, page=page), base_url=HOST)
+    assert "immutable" in client.get("/assets/a-1b.js").headers["cache-control"]
+    assert client.get("/").headers["cache-control"] == "no-cache"
+
+
+def test_what_takes_long_is_answered_with_how_far_it_is(small_library: ProceduralLibrary) -> None:
+    go_on = threading.Event()
+
+    def halting(items: Iterable[Any], label: str, total: int) -> Iterator[Any]:  # noqa: ARG001
+        for item in items:
+            yield item
+            go_on.wait()
+
+    app = create_app(small_library, work=Work(track=halting), patience=0.01)
+    client = TestClient(app, base_url=HOST)
+    try:
+        assert client.get("/api/library").status_code == 200
+        # The first of nine pictures is drawn, and counted, some time after it was asked for.
+        wait_until(
+            lambda: (
+                (answer := client.get("/api/thumbnails").json())["progress"]
+                and answer["progress"]["done"]
+            )
+        )
+        answer = client.get("/api/thumbnails")
+        assert answer.status_code == 202
+        progress = answer.json()["progress"]
+        assert (progress["done"], progress["total"]) == (1, 9)
+    finally:
+        go_on.set()
+    wait_until(lambda: client.get("/api/thumbnails").status_code == 200)
 
 
 def test_thumbnails_are_the_basis_images(client: TestClient) -> None:
@@ -205,7 +261,43 @@ def test_an_unknown_format_is_refused(client: TestClient) -> None:
         "/api/export/gltf", json={"library": "small", "weights": {"material-1": 1}}
     )
     assert answer.status_code == 400
-    assert "expected merl or bsdf" in answer.json()["error"]
+    assert "expected merl, bsdf, mtlx, glb" in answer.json()["error"]
+
+
+def test_a_fit_says_how_far_off_it_is(client: TestClient, monkeypatch: pytest.MonkeyPatch) -> None:
+    # Fitting takes seconds, and has its own tests.
+    monkeypatch.setattr(taking, "fit", lambda *_: SimpleNamespace(summary="off by 3.9% ±"))
+    monkeypatch.setattr(taking, "write_fit", lambda path, _: path.write_bytes(b"<materialx>"))
+    answer = client.post(
+        "/api/export/mtlx", json={"library": "small", "weights": {"material-1": 1}}
+    )
+    assert answer.content == b"<materialx>"
+    assert unquote(answer.headers["halfway-summary"]) == "off by 3.9% ±"
+
+
+def test_a_scene_is_a_zip_of_its_folder(client: TestClient) -> None:
+    answer = client.post(
+        "/api/export/pbrt-v4", json={"library": "small", "weights": {"material-1": 1}}
+    )
+    with ZipFile(BytesIO(answer.content)) as archive:
+        assert {"scene.pbrt", "material.bsdf"} <= set(archive.namelist())
+
+
+def test_a_measurement_becomes_a_material(small_library: ProceduralLibrary, tmp_path: Path) -> None:
+    client = TestClient(create_app(small_library), base_url=HOST)
+    refused = client.post("/api/materials/notes.binary", content=b"nothing")
+    assert refused.status_code == 400
+    assert refused.json()["error"].startswith("notes.binary ")
+    before = client.get("/api/tables/material-1").headers["etag"]
+    write_merl(tmp_path / "scan.binary", small_library.brdf("material-2"))
+    content = (tmp_path / "scan.binary").read_bytes()
+    assert client.post("/api/materials/scan.binary", content=content).json() == {"name": "scan"}
+    assert client.post("/api/materials/scan.binary", content=content).json()["name"] == "scan (2)"
+    summary = client.get("/api/library").json()
+    assert [each["name"] for each in summary["materials"]][-2:] == ["scan", "scan (2)"]
+    own, theirs = (client.get(f"/api/tables/{name}") for name in ("scan", "material-2"))
+    assert own.content == theirs.content
+    assert own.headers["etag"] != before
 
 
 def test_a_recipe_of_another_library_is_refused(client: TestClient) -> None:

@@ -60,10 +60,12 @@ def address(library: ProceduralLibrary) -> Generator[str]:
 
 
 @contextmanager
-def served(library: ProceduralLibrary) -> Generator[str]:
-    """The address of an explorer of ``library``."""
+def served(library: ProceduralLibrary, **options: Any) -> Generator[str]:
+    """The address of an explorer of ``library``; ``options`` are those of `create_app`."""
     with listen(0) as listener:
-        config = uvicorn.Config(create_app(library, page=Files.load()), log_level="error")
+        config = uvicorn.Config(
+            create_app(library, page=Files.load(), **options), log_level="error"
+        )
         server = uvicorn.Server(config)
         thread = threading.Thread(target=server.run, args=([listener],), daemon=True)
         thread.start()

@@ -101,8 +101,8 @@ def test_a_mesh_of_one_s_own_is_lit(explorer: Explorer) -> None:
     explorer.page.locator("input[type=file]").set_input_files(
         {"name": "notes.obj", "mimeType": "text/plain", "buffer": b"nothing"}
     )
-    explorer.page.wait_for_selector(".problem:not([hidden])")
-    said = explorer.page.locator(".problem").inner_text()
+    explorer.page.wait_for_selector(".material .problem")
+    said = explorer.page.locator(".material .problem").inner_text()
     assert said.startswith("notes.obj has no triangles: expected a mesh.")
 
 

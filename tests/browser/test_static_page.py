@@ -57,7 +57,7 @@ def test_the_page_opens_and_asks_for_nothing_outside_its_folder(explorer: Explor
     explorer.page.on("request", lambda request: asked.append(request.url))
     explorer.open(PAIR + "&t=0.5")
     explorer.wait_for_picture()
-    explorer.page.locator(".material select").select_option("city")
+    explorer.page.locator("[name=light]").select_option("city")
     explorer.wait_for_picture(1)
     inside = (explorer.address, "blob:", "data:", "about:blank")
     assert [url for url in asked if not url.startswith(inside)] == []

@@ -55,6 +55,8 @@ def _type(node: dict[str, Any]) -> str:
             return "string"
         case "number" | "integer":
             return "number"
+        case "null":
+            return "null"
         case "boolean":
             return "boolean"
         case "array" if "prefixItems" in node:

@@ -1,6 +1,7 @@
 // What every panel is given.
 
-import type { Block, Client } from "./api/client";
+import type { Client } from "./api/client";
+import type { Lights } from "./render/lights";
 import type { Tables } from "./render/tables";
 import type { Actions, Linked, State, Theme } from "./state";
 import type { Store } from "./store";
@@ -17,7 +18,7 @@ export interface Context {
   readonly actions: Actions;
   readonly thumbnails: Thumbnails;
   readonly tables: Tables;
-  readonly environment: Block;
+  readonly lights: Lights;
   /** Aborted when the page is taken away. */
   readonly signal: AbortSignal;
 }
@@ -34,6 +35,11 @@ export interface Options {
   readonly address?: () => string;
   readonly theme?: Theme;
   readonly onTheme?: (theme: Theme) => void;
+  /** The shortlist of a library that was kept before, as text; and told when it is another. */
+  readonly kept?: (library: string) => string | null;
+  readonly onKept?: (library: string, text: string) => void;
+  /** The library has other materials: begin again at a fragment. */
+  readonly restart?: (fragment: string) => void;
   /** Where keys are listened to; the page's own element if it is left out. */
   readonly keys?: Document | HTMLElement;
 }

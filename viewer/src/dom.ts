@@ -4,8 +4,8 @@ type Child = Node | string | null | undefined | false;
 type Listeners = { [K in keyof HTMLElementEventMap as `on${K}`]?: (event: HTMLElementEventMap[K]) => void };
 // biome-ignore format: a line each would take a page.
 type Attribute =
-  | "accept" | "autocomplete" | "download" | "draggable" | "height" | "hidden" | "href" | "id" | "label" | "max" | "min"
-  | "name" | "placeholder" | "role" | "spellcheck" | "step" | "tabindex" | "title" | "type" | "value" | "width"
+  | "accept" | "autocomplete" | "disabled" | "download" | "draggable" | "height" | "hidden" | "href" | "id" | "label" | "max" | "min"
+  | "name" | "placeholder" | "popover" | "role" | "spellcheck" | "step" | "tabindex" | "title" | "type" | "value" | "width"
   | `aria-${string}` | `data-${string}`;
 type Properties = Listeners & { [K in Attribute]?: string | number | boolean | null | undefined };
 
@@ -38,6 +38,12 @@ const ICONS = {
   redo: "M9.8 3l3.7 3.5L9.8 10V7.6H6.5a2.2 2.2 0 0 0 0 4.4H10v1.5H6.5a3.7 3.7 0 0 1 0-7.4h3.3z",
   theme: "M8 2a6 6 0 1 0 0 12A6 6 0 0 0 8 2zm0 1.5v9a4.5 4.5 0 0 1 0-9z",
   link: "M6.6 9.4a2.6 2.6 0 0 1 0-3.7l2-2a2.6 2.6 0 0 1 3.7 3.7l-1 1-1-1 1-1a1.2 1.2 0 0 0-1.7-1.7l-2 2a1.2 1.2 0 0 0 0 1.7zm2.8-2.8a2.6 2.6 0 0 1 0 3.7l-2 2a2.6 2.6 0 0 1-3.7-3.7l1-1 1 1-1 1a1.2 1.2 0 0 0 1.7 1.7l2-2a1.2 1.2 0 0 0 0-1.7z",
+  camera:
+    "M5.8 3h4.4l1 1.6H13a1.2 1.2 0 0 1 1.2 1.2v6A1.2 1.2 0 0 1 13 13H3a1.2 1.2 0 0 1-1.2-1.2v-6A1.2 1.2 0 0 1 3 4.6h1.8zM8 6a2.7 2.7 0 1 0 0 5.4A2.7 2.7 0 0 0 8 6zm0 1.4a1.3 1.3 0 1 1 0 2.6 1.3 1.3 0 0 1 0-2.6z",
+  terminal:
+    "M2.5 3h11A1.5 1.5 0 0 1 15 4.5v7a1.5 1.5 0 0 1-1.5 1.5h-11A1.5 1.5 0 0 1 1 11.5v-7A1.5 1.5 0 0 1 2.5 3zm0 1.5v7h11v-7zm1.1 1.7 1-1L7.4 8l-2.8 2.8-1-1L5.4 8zM8 9.7h4v1.3H8z",
+  help: "M8 1.5a6.5 6.5 0 1 0 0 13 6.5 6.5 0 0 0 0-13zm0 1.5a5 5 0 1 1 0 10A5 5 0 0 1 8 3zm0 1.3c-1.5 0-2.5.9-2.6 2.3h1.5c0-.6.4-1 1.1-1 .6 0 1 .4 1 .9 0 .5-.3.7-.9 1.1-.7.5-1 .9-.9 1.9h1.4c0-.6.2-.8.8-1.2.7-.5 1.2-1 1.2-1.9 0-1.3-1.1-2.1-2.6-2.1zM7.2 10.5v1.5h1.6v-1.5z",
+  more: "M3 6.6a1.4 1.4 0 1 1 0 2.8 1.4 1.4 0 0 1 0-2.8zm5 0a1.4 1.4 0 1 1 0 2.8 1.4 1.4 0 0 1 0-2.8zm5 0a1.4 1.4 0 1 1 0 2.8 1.4 1.4 0 0 1 0-2.8z",
   save: "M7.2 2.5h1.6v5.2l1.9-1.9 1.1 1.1L8 10.7 4.2 6.9l1.1-1.1 1.9 1.9zM3 12h10v1.5H3z",
   home: "M8 2.6 2.5 7.5l1 1.1.9-.8v5.4h2.8V10h1.6v3.2h2.8V7.8l.9.8 1-1.1z",
 } as const;
@@ -53,6 +59,16 @@ export function icon(name: Icon): SVGSVGElement {
   path.setAttribute("d", ICONS[name]);
   svg.append(path);
   return svg;
+}
+
+/** A small window that opens at the button, and goes with Escape or a click beside it. */
+export function popover(title: string, ...children: Child[]): HTMLElement {
+  return el(
+    "div.popover",
+    { popover: "auto", role: "dialog", "aria-label": title },
+    el("h2", title),
+    ...children,
+  );
 }
 
 export function iconButton(name: Icon, label: string, onclick: () => void): HTMLButtonElement {

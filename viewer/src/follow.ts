@@ -3,24 +3,46 @@
 import type { Context } from "./context";
 import { toHash } from "./permalink";
 import { join, type Route, reversed } from "./route";
-import { comparedSpace, LINKED, type State } from "./state";
+import { toText } from "./shortlist";
+import { comparedSpace, LINKED, type Panel, type State } from "./state";
 import { comingUp, shownNames } from "./wanted";
 
 export function follow(context: Context): void {
+  fetchPictures(context);
   fetchRoutes(context);
   fetchOtherRoutes(context);
   fetchAtPoint(context);
   fetchSpaces(context);
   fetchTables(context);
   keepLink(context);
+  keepShortlist(context);
   play(context);
+}
+
+/** The small pictures of all materials, which stand in many places. */
+function fetchPictures({ client, store, actions, thumbnails, root }: Context): void {
+  client.thumbnails().then(
+    (block) => {
+      thumbnails.fill(block, root);
+      store.set({ pictured: true });
+    },
+    (error: Error) => {
+      if (error.name !== "AbortError") actions.say("space", "pictures", error.message);
+    },
+  );
 }
 
 /** The route through the stops. */
 function fetchRoutes(context: Context): void {
-  latest(context, ["space", "pace", "stops"], async (state, running) => {
+  const { store, actions } = context;
+  let shown: string | null = null;
+  latest(context, "route", "route", ["space", "pace", "stops"], async (state, running) => {
+    store.set({ behind: shown });
     const route = await fetchRoute(context, state.space, state, running);
-    if (!running.aborted) context.actions.setRoute(route);
+    if (running.aborted) return;
+    shown = `${state.stops.join(" to ")}, ${state.space}`;
+    store.set({ behind: null });
+    actions.setRoute(route);
   });
 }
 
@@ -31,18 +53,21 @@ async function fetchRoute(
   { pace, stops }: State,
   running: AbortSignal,
 ): Promise<Route> {
-  const legs = stops.slice(1).map(async (stop, i) => {
+  const leg = async (stop: string, i: number) => {
     const start = stops[i]!;
     if (names.indexOf(start) < names.indexOf(stop)) return client.leg(space, start, stop, running);
     return reversed(await client.leg(space, stop, start, running));
-  });
-  return join(await Promise.all(legs), pace, names);
+  };
+  // A browser asks few questions at once: one, while the space that they all need is being computed.
+  const [first, ...others] = stops.slice(1);
+  const legs = [await leg(first!, 0)];
+  return join(legs.concat(await Promise.all(others.map((stop, i) => leg(stop, i + 1)))), pace, names);
 }
 
 /** The way of the compared space through the same stops. */
 function fetchOtherRoutes(context: Context): void {
   const { actions } = context;
-  latest(context, ["compare", "pace", "stops"], async (state, running) => {
+  latest(context, "route", "compared route", ["compare", "pace", "stops"], async (state, running) => {
     const space = comparedSpace(state.compare);
     if (space === null) {
       actions.compareWith(state.compare);
@@ -56,7 +81,7 @@ function fetchOtherRoutes(context: Context): void {
 /** The material at a free point. */
 function fetchAtPoint(context: Context): void {
   const { client, actions } = context;
-  latest(context, ["point"], async ({ space, point }, running) => {
+  latest(context, "space", "point", ["point"], async ({ space, point }, running) => {
     if (point !== null) actions.setAtPoint(await client.at(space, point, running));
   });
 }
@@ -64,16 +89,18 @@ function fetchAtPoint(context: Context): void {
 /** The space to look at. */
 function fetchSpaces(context: Context): void {
   const { client, store } = context;
-  latest(context, ["space"], async ({ space }, running) => {
+  latest(context, "space", "space", ["space"], async ({ space }, running) => {
     const view = await client.spaceView(space);
     if (!running.aborted) store.set({ view });
   });
 }
 
 /** Tables of what is shown and of what comes next; who draws from them hears when one has come. */
-function fetchTables({ tables, store }: Context): void {
-  tables.onChange = (problem) =>
-    store.set({ arrived: store.get().arrived + 1, ...(problem !== null && { problem }) });
+function fetchTables({ tables, store, actions }: Context): void {
+  tables.onChange = (name, problem) => {
+    store.set({ arrived: store.get().arrived + 1 });
+    actions.say("material", `table ${name}`, problem);
+  };
   store.watch(["recipe", "otherRecipe"], (state) =>
     tables.want(shownNames(state), state.recipe.length ? comingUp(state) : []),
   );
@@ -81,7 +108,9 @@ function fetchTables({ tables, store }: Context): void {
 
 /** Ask whenever one of the fields changes; the question before is taken back, and a failure is said. */
 function latest(
-  { store, signal }: Context,
+  { store, actions, signal }: Context,
+  panel: Panel,
+  cause: string,
   fields: readonly (keyof State)[],
   ask: (state: State, running: AbortSignal) => Promise<void>,
 ): void {
@@ -90,9 +119,12 @@ function latest(
   store.watch(fields, (state) => {
     running.abort();
     running = new AbortController();
-    ask(state, running.signal).catch((error: Error) => {
-      if (error.name !== "AbortError") store.set({ problem: error.message });
-    });
+    ask(state, running.signal).then(
+      () => actions.say(panel, cause, null),
+      (error: Error) => {
+        if (error.name !== "AbortError") actions.say(panel, cause, error.message);
+      },
+    );
   });
 }
 
@@ -105,6 +137,15 @@ function keepLink({ store, options, signal }: Context): void {
   store.watch(LINKED, () => {
     clearTimeout(timer);
     timer = setTimeout(() => options.onFragment?.(toHash(store.get())), UNHURRIED);
+  });
+}
+
+/** The shortlist stays where the page stands, for each library. */
+function keepShortlist({ store, options }: Context): void {
+  let before = store.get().kept;
+  store.watch(["kept"], ({ kept, library }) => {
+    if (kept !== before) options.onKept?.(library.name, toText(library.name, kept));
+    before = kept;
   });
 }
 

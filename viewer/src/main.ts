@@ -4,11 +4,12 @@ import { Problem } from "./api/client";
 import { files } from "./api/files";
 import { http } from "./api/http";
 import { mount } from "./mount";
-import { fromHash } from "./permalink";
+import { fromHash, unknownIn } from "./permalink";
 import type { Theme } from "./state";
 import "./styles/window.css";
 
 const THEME = "halfway-theme";
+const KEPT = "halfway-shortlist ";
 
 // A page that was written says where its data are.
 const data = document.querySelector<HTMLMetaElement>("meta[name=halfway-data]")?.content;
@@ -19,11 +20,20 @@ mount(document.querySelector<HTMLElement>("#app")!, data ? files(data) : http, {
   address: () => location.href,
   theme: (localStorage.getItem(THEME) ?? "auto") as Theme,
   onTheme: (theme) => localStorage.setItem(THEME, theme),
+  kept: (library) => localStorage.getItem(KEPT + library),
+  onKept: (library, text) => localStorage.setItem(KEPT + library, text),
+  restart: (fragment) => {
+    history.replaceState(null, "", fragment);
+    location.reload();
+  },
   keys: document,
 }).then(
   // Another link in the address bar of the same page loads nothing anew.
   ({ store, actions }) =>
-    addEventListener("hashchange", () => actions.visit(fromHash(location.hash, store.get().library))),
+    addEventListener("hashchange", () => {
+      const { library } = store.get();
+      actions.visit(fromHash(location.hash, library), unknownIn(location.hash, library));
+    }),
   (error: unknown) => {
     // What a person can act on is on the page already.
     if (!(error instanceof Problem)) throw error;

@@ -4,21 +4,27 @@
 // option: it looks neither at the address nor at what the browser stores.
 
 import { type Block, type Client, Problem } from "./api/client";
+import { patient, type Waiting } from "./api/patient";
 import type { LibrarySummary } from "./api/schema";
 import { type DrawableGrid, isDrawable } from "./brdf/grid";
 import type { Context, Options } from "./context";
 import { el } from "./dom";
 import { follow } from "./follow";
 import { listenToKeys } from "./keys";
+import { listenToDrops } from "./opening";
 import { brdfPanel } from "./panels/brdf/panel";
 import { head } from "./panels/head";
 import { materialPanel } from "./panels/material/panel";
+import { status } from "./panels/notices";
 import { recipePanel } from "./panels/recipe/panel";
 import { routePanel } from "./panels/route/panel";
+import { shortlistPanel } from "./panels/shortlist/panel";
 import { spacePanel } from "./panels/space/panel";
-import { fromHash } from "./permalink";
+import { fromHash, unknownIn } from "./permalink";
+import { Lights } from "./render/lights";
 import { Tables } from "./render/tables";
-import { Actions, createState, type State } from "./state";
+import { fromText } from "./shortlist";
+import { Actions, createState, LINK, type State } from "./state";
 import type { Store } from "./store";
 import { Thumbnails } from "./thumbnails";
 import "./styles/index.css";
@@ -34,10 +40,18 @@ export interface Mounted {
 /** Build the page in `element`; a library that cannot be shown is said there, and thrown as a `Problem`. */
 export async function mount(element: HTMLElement, client: Client, options: Options = {}): Promise<Mounted> {
   element.classList.add("halfway");
-  element.replaceChildren(el("p.waiting", { role: "status" }, "Reading the library …"));
+  const text = el("p.waiting", { role: "status" }, "Reading the library …");
+  element.replaceChildren(text);
+  const gone = new AbortController();
+  let listener = (waiting: Waiting | null): void => {
+    if (waiting) text.textContent = waiting.text;
+  };
+  const asked = patient(client, (waiting) => listener(waiting), gone.signal);
   try {
-    const answers = [client.library(), client.thumbnails(), client.environment()] as const;
-    return show(element, client, options, await Promise.all(answers));
+    const answers = await Promise.all([asked.library(), asked.environment()]);
+    const mounted = show(element, asked, options, answers, gone);
+    listener = mounted.actions.setWaiting;
+    return mounted;
   } catch (error) {
     const text = error instanceof Error ? error.message : String(error);
     element.replaceChildren(el("p.waiting.failed", { role: "alert" }, text));
@@ -49,25 +63,38 @@ function show(
   root: HTMLElement,
   client: Client,
   options: Options,
-  [library, thumbnails, environment]: readonly [LibrarySummary, Block, Block],
+  [library, environment]: readonly [LibrarySummary, Block],
+  gone: AbortController,
 ): Mounted {
   const linked = { ...fromHash(options.fragment ?? "", library), ...options.linked };
   const store = createState(library, linked, options.theme ?? "auto");
   const names = library.materials.map(({ name }) => name);
-  const gone = new AbortController();
   const context: Context = {
-    ...{ root, client, options, store, names, environment, signal: gone.signal },
+    ...{ root, client, options, store, names, signal: gone.signal },
     actions: new Actions(store),
-    thumbnails: new Thumbnails(names, thumbnails),
+    thumbnails: new Thumbnails(names),
     tables: new Tables(client, drawable(library)),
+    lights: new Lights(environment),
   };
   applyTheme(context);
   const side = el("div.side", recipePanel(context), brdfPanel(context));
   root.replaceChildren(
-    el("div.layout", head(context), spacePanel(context), materialPanel(context), routePanel(context), side),
+    el(
+      "div.layout",
+      head(context),
+      spacePanel(context),
+      materialPanel(context),
+      routePanel(context),
+      shortlistPanel(context),
+      side,
+      status(context),
+    ),
   );
+  context.actions.say("route", LINK, unknownIn(options.fragment ?? "", library));
+  takeShortlist(context);
   follow(context);
   listenToKeys(context);
+  listenToDrops(context);
   root.classList.add("ready");
   const unmount = () => {
     gone.abort();
@@ -75,6 +102,18 @@ function show(
     root.classList.remove("ready");
   };
   return { store, actions: context.actions, unmount };
+}
+
+/** What was kept before; of a library that has changed, what it still has. */
+function takeShortlist({ options, store, actions }: Context): void {
+  const { library } = store.get();
+  const text = options.kept?.(library.name);
+  if (!text) return;
+  try {
+    actions.keep(...fromText(text, "The shortlist in this browser", library));
+  } catch (error) {
+    actions.say("route", "shortlist", (error as Error).message);
+  }
 }
 
 /** The grid of a library, if the page can draw it. */

@@ -17,3 +17,8 @@ export function paced(draw: () => void, least = 0): () => void {
     requestAnimationFrame(frame);
   };
 }
+
+/** Milliseconds before what failed so often is tried again. */
+export function pauseAfter(failures: number): number {
+  return 1000 * Math.min(2 ** failures, 60);
+}

@@ -13,7 +13,8 @@ export function toHash(linked: Linked): string {
     stops: linked.stops.join(","),
     t: short(linked.t, 4),
     point: (linked.point ?? []).map((x) => String(Number(x.toPrecision(7)))).join(","),
-    compare: linked.compare,
+    // The shortlist stays with the person who has it.
+    compare: linked.compare.startsWith("kept:") ? "" : linked.compare,
     // A mesh stays with the person who has its file.
     shape: linked.shape === "mesh" ? "" : linked.shape,
     light: linked.light,
@@ -54,6 +55,19 @@ export function fromHash(hash: string, library: LibrarySummary): Partial<Linked>
     orbit: toOrbit(list("orbit").map(Number.parseFloat)),
   };
   return Object.fromEntries(Object.entries(sensible).filter(([, value]) => value !== undefined));
+}
+
+/** What a link asks for that makes no sense here, in one line; null where all does. */
+export function unknownIn(hash: string, library: LibrarySummary): string | null {
+  const fields = new URLSearchParams(hash.replace(/^#/, ""));
+  const materials = new Set(library.materials.map(({ name }) => name));
+  const understood: Partial<Linked> = fromHash(hash, library);
+  const unknown = [...fields].flatMap(([key, value]) => {
+    if (key === "stops") return value.split(",").filter((name) => name && !materials.has(name));
+    return key in understood ? [] : [`${key} ${value}`];
+  });
+  if (unknown.length === 0) return null;
+  return `The link asks for ${unknown.join(", ")}, which the explorer of ${library.name} does not have: it is shown without.`;
 }
 
 function toOrbit(numbers: readonly number[]): Orbit | undefined {

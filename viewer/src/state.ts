@@ -1,13 +1,25 @@
 // What the page shows, and the acts that change it.
 
+import type { Waiting } from "./api/patient";
 import type { LibrarySummary, PositionView, SpaceView } from "./api/schema";
 import { clamp } from "./numbers";
 import { fromDocument, type Ingredient, only } from "./recipe";
 import { type Route, recipeAt } from "./route";
 import { HOME, type View } from "./scene";
+import { type Kept, recipeOf } from "./shortlist";
 import { createStore, type Store } from "./store";
 
 export type Theme = "auto" | "light" | "dark";
+
+/** Where a notice stands: beside the act that it is about. */
+export type Panel = "space" | "material" | "route" | "recipe";
+
+/** Something to be said, until its cause is gone or a person closes it. */
+export interface Notice {
+  readonly panel: Panel;
+  readonly cause: string;
+  readonly text: string;
+}
 
 export interface State extends View {
   readonly library: LibrarySummary;
@@ -16,6 +28,8 @@ export interface State extends View {
   readonly stops: readonly string[];
   /** The stop that the next chosen material replaces; `stops.length` adds one. */
   readonly slot: number;
+  /** Whether it comes before that stop instead. */
+  readonly inserting: boolean;
   readonly t: number;
   /** The stop that t goes to when the route has come; null for none. */
   readonly goal: number | null;
@@ -35,7 +49,13 @@ export interface State extends View {
   readonly point: readonly number[] | null;
   /** What the server says of it. */
   readonly atPoint: PositionView | null;
-  /** What is shown beside: "" nothing, `stop:NAME` a material, else a space, whose way through the same stops it is. */
+  /** What a person kept, in their order; and the one of it that is shown instead of the route. */
+  readonly kept: readonly Kept[];
+  readonly held: Kept | null;
+  /**
+   * What is shown beside: "" nothing, `stop:NAME` a material, `kept:ID` one of the shortlist, else a space, whose way through
+   * the same stops it is.
+   */
   readonly compare: string;
   readonly otherRoute: Route | null;
   readonly otherRecipe: readonly Ingredient[];
@@ -43,7 +63,13 @@ export interface State extends View {
   readonly split: number;
   /** How many tables have come: who draws from them watches it. */
   readonly arrived: number;
-  readonly problem: string | null;
+  /** Whether the pictures of all materials have come. */
+  readonly pictured: boolean;
+  readonly notices: readonly Notice[];
+  /** What the page waits for: it is being computed, or nobody answers. */
+  readonly waiting: Waiting | null;
+  /** The route that is shown, in words, while another is asked for. */
+  readonly behind: string | null;
   readonly past: readonly Whereabouts[];
   readonly future: readonly Whereabouts[];
 }
@@ -60,6 +86,10 @@ const MAX_PAST = 100;
 /** Moves of a free point that follow each other so soon, in milliseconds, are one act. */
 const ONE_ACT = 700;
 const STOP = "stop:";
+const KEPT = "kept:";
+/** Causes of notices: what was chosen, and what a link says. */
+const CHOICE = "choice";
+export const LINK = "link";
 
 export function createState(library: LibrarySummary, linked: Partial<Linked>, theme: Theme): Store<State> {
   const stops = linked.stops ?? defaultStops(library);
@@ -78,6 +108,7 @@ export function createState(library: LibrarySummary, linked: Partial<Linked>, th
     ...linked,
     stops,
     slot: stops.length - 1,
+    inserting: false,
     goal: null,
     playing: false,
     theme,
@@ -88,11 +119,16 @@ export function createState(library: LibrarySummary, linked: Partial<Linked>, th
     route: null,
     recipe: [],
     atPoint: null,
+    kept: [],
+    held: null,
     otherRoute: null,
     otherRecipe: [],
     split: 0.5,
     arrived: 0,
-    problem: null,
+    pictured: false,
+    notices: [],
+    waiting: null,
+    behind: null,
     past: [],
     future: [],
   });
@@ -105,7 +141,17 @@ export function comparedStop(compare: string): string | null {
 
 /** The space that is compared with; null when it is a material, or nothing. */
 export function comparedSpace(compare: string): string | null {
-  return compare === "" || compare.startsWith(STOP) ? null : compare;
+  return compare === "" || compare.startsWith(STOP) || compare.startsWith(KEPT) ? null : compare;
+}
+
+/** The one of the shortlist that is compared with; null when it is anything else. */
+export function comparedKept({ compare, kept }: Pick<State, "compare" | "kept">): Kept | null {
+  return kept.find(({ id }) => compare === KEPT + id) ?? null;
+}
+
+/** What one of the shortlist is called where it is compared with. */
+export function asComparedKept({ id }: Kept): string {
+  return KEPT + id;
 }
 
 /** What a material is called where it is compared with. */
@@ -118,24 +164,41 @@ export class Actions {
 
   constructor(private readonly store: Store<State>) {}
 
+  /** Say something beside an act, or with null that its cause is gone. */
+  say = (panel: Panel, cause: string, text: string | null): void => {
+    const { notices } = this.store.get();
+    const others = notices.filter((notice) => notice.panel !== panel || notice.cause !== cause);
+    if (text !== null) this.store.set({ notices: [...others, { panel, cause, text }] });
+    else if (others.length < notices.length) this.store.set({ notices: others });
+  };
+
   setT = (t: number): void => {
-    const { route, otherRoute, point } = this.store.get();
+    const { route, otherRoute, point, stops, waiting } = this.store.get();
     if (point !== null) this.remember();
     const clamped = clamp(t, 0, 1);
     this.store.set({
       t: clamped,
       point: null,
       atPoint: null,
+      held: null,
       ...(route && { recipe: recipeAt(route, clamped) }),
+      ...(!route && waiting?.computed && { recipe: nearest(stops, clamped) }),
       ...(otherRoute && { otherRecipe: recipeAt(otherRoute, clamped) }),
     });
   };
 
   setRoute = (route: Route): void => {
-    const { goal, atPoint, recipe } = this.store.get();
+    const { goal, atPoint, held, recipe } = this.store.get();
     // Where the stops are is known with the route: at perceptual pace they are not even.
     const t = (goal === null ? undefined : route.stops[goal]) ?? this.store.get().t;
-    this.store.set({ route, t, goal: null, recipe: atPoint ? recipe : recipeAt(route, t), problem: null });
+    this.store.set({ route, t, goal: null, recipe: atPoint || held ? recipe : recipeAt(route, t) });
+  };
+
+  /** What the page waits for. Before any route is known, and that takes long, the nearest stop is shown. */
+  setWaiting = (waiting: Waiting | null): void => {
+    const { route, recipe, stops, t } = this.store.get();
+    const isEmpty = waiting?.computed && route === null && recipe.length === 0;
+    this.store.set({ waiting, ...(isEmpty && { recipe: nearest(stops, t) }) });
   };
 
   /** Leave the route for a point of the space. */
@@ -143,17 +206,43 @@ export class Actions {
     const now = performance.now();
     if (now - this.lastMove > ONE_ACT) this.remember();
     this.lastMove = now;
-    this.store.set({ point, playing: false });
+    this.store.set({ point, held: null, playing: false });
   };
 
   setAtPoint = (atPoint: PositionView): void => {
-    if (this.store.get().point !== null)
-      this.store.set({ atPoint, recipe: fromDocument(atPoint.recipe), problem: null });
+    if (this.store.get().point !== null) this.store.set({ atPoint, recipe: fromDocument(atPoint.recipe) });
   };
 
   compareWith = (compare: string): void => {
     const stop = comparedStop(compare);
-    this.store.set({ compare, otherRoute: null, otherRecipe: stop === null ? [] : only(stop) });
+    const kept = comparedKept({ ...this.store.get(), compare });
+    const otherRecipe = stop !== null ? only(stop) : kept ? recipeOf(kept) : [];
+    this.store.set({ compare, otherRoute: null, otherRecipe });
+  };
+
+  /** Keep a material; the last of the shortlist. */
+  keep = (...kept: readonly Kept[]): void => this.store.set({ kept: [...this.store.get().kept, ...kept] });
+
+  /** Another name or note, or with null away with it. */
+  changeKept = (id: string, change: Partial<Pick<Kept, "name" | "note">> | null): void => {
+    const { kept, held, compare } = this.store.get();
+    const next = kept.flatMap((each) => (each.id !== id ? [each] : change ? [{ ...each, ...change }] : []));
+    this.store.set({ kept: next, held: next.find((each) => each.id === held?.id) ?? null });
+    if (compare === KEPT + id && change === null) this.compareWith("");
+    if (held?.id === id && change === null) this.setT(this.store.get().t);
+  };
+
+  moveKept = (id: string, by: number): void => {
+    const { kept } = this.store.get();
+    const from = kept.findIndex((each) => each.id === id);
+    const to = clamp(from + by, 0, kept.length - 1);
+    this.store.set({ kept: kept.toSpliced(from, 1).toSpliced(to, 0, kept[from]!) });
+  };
+
+  /** Show one of the shortlist; the route stays where it is. */
+  hold = (held: Kept): void => {
+    if (this.store.get().point !== null) this.remember();
+    this.store.set({ held, recipe: recipeOf(held), point: null, atPoint: null, playing: false });
   };
 
   setOtherRoute = (otherRoute: Route): void => {
@@ -162,15 +251,24 @@ export class Actions {
 
   /** Put a material where the chosen slot is, and choose the other end next. */
   choose = (name: string): void => {
-    const { stops, slot } = this.store.get();
-    if ([slot - 1, slot, slot + 1].some((i) => stops[i] === name)) return;
-    this.go({ stops: stops.toSpliced(slot, 1, name) });
-    this.store.set({ goal: slot });
+    const { stops, slot, inserting } = this.store.get();
+    const next = stops.toSpliced(slot, inserting ? 0 : 1, name);
+    if (next[slot] === next[slot - 1] || next[slot] === next[slot + 1]) {
+      const text = `${name} is the stop beside it already: choose another material, or another stop.`;
+      this.say("route", CHOICE, text);
+      return;
+    }
+    if (next[slot] === stops[slot] && !inserting) return;
+    this.go({ stops: next });
+    this.store.set({ goal: slot, inserting: false });
   };
+
+  /** The next chosen material comes between the stop before `slot` and the one there. */
+  insertAt = (slot: number): void => this.store.set({ slot, inserting: true });
 
   selectSlot = (slot: number): void => {
     const { stops, route } = this.store.get();
-    this.store.set({ slot });
+    this.store.set({ slot, inserting: false });
     if (slot < stops.length) this.setT(route?.stops[slot] ?? slot / (stops.length - 1));
   };
 
@@ -187,7 +285,10 @@ export class Actions {
     const [moved] = next.splice(from, 1);
     if (moved === undefined || to < 0 || to > next.length) return;
     next.splice(to, 0, moved);
-    if (next.some((name, j) => name === next[j - 1])) return;
+    if (next.some((name, j) => name === next[j - 1])) {
+      this.say("route", CHOICE, "There a stop would follow itself: move it past its neighbour.");
+      return;
+    }
     this.go({ stops: next });
     this.store.set({ slot: to });
   };
@@ -196,16 +297,18 @@ export class Actions {
   go = (change: Partial<Whereabouts>): void => {
     const { slot } = this.store.get();
     const next = { ...this.whereabouts(), point: null, ...change };
+    for (const cause of [CHOICE, LINK]) this.say("route", cause, null);
     this.remember();
     this.follow(next, Math.min(slot, next.stops.length - 1));
   };
 
   /** Go where a link leads; what it does not say stays, but for a free point. */
-  visit = (linked: Partial<Linked>): void => {
+  visit = (linked: Partial<Linked>, unknown: string | null = null): void => {
     const { space, pace, stops, point } = { ...this.store.get(), point: null, ...linked };
     this.go({ space, pace, stops, point });
     this.store.set({ ...linked, slot: stops.length - 1, goal: null, playing: false });
     if (point === null) this.setT(this.store.get().t);
+    this.say("route", LINK, unknown);
   };
 
   undo = (): void => {
@@ -229,7 +332,7 @@ export class Actions {
     this.lastMove = Number.NEGATIVE_INFINITY;
     // Back on the same route, its recipe holds; on another one it comes with the answer.
     const recipe = next.point === null && route ? { recipe: recipeAt(route, t) } : {};
-    this.store.set({ ...next, slot, atPoint: null, ...recipe });
+    this.store.set({ ...next, slot, inserting: false, atPoint: null, held: null, ...recipe });
   }
 
   /** The present whereabouts are one undo away; nothing is ahead of them. */
@@ -243,9 +346,19 @@ export class Actions {
   }
 }
 
+/** The recipe of the stop that is nearest where the route is not known. */
+function nearest(stops: readonly string[], t: number): Ingredient[] {
+  return only(stops[Math.round(t * (stops.length - 1))]!);
+}
+
+/** Whether what is shown is not on the route. */
+export function isAway({ atPoint, held }: Pick<State, "atPoint" | "held">): boolean {
+  return atPoint !== null || held !== null;
+}
+
 /** A pair that shows something, where the library has it. */
 function defaultStops({ materials }: LibrarySummary): string[] {
   const names = materials.map(({ name }) => name);
-  const wished = ["gold-metallic-paint", "blue-acrylic"].filter((name) => names.includes(name));
+  const wished = ["specular-maroon-phenolic", "gold-paint"].filter((name) => names.includes(name));
   return wished.length === 2 ? wished : [names[0]!, names.at(-1)!];
 }

@@ -3,19 +3,23 @@
 import type { Block } from "./api/client";
 import { HALF } from "./brdf/half";
 import { toByte } from "./colour";
+import { el } from "./dom";
 import type { Ingredient } from "./recipe";
 
 export class Thumbnails {
-  readonly size: number;
-  private readonly byName: ReadonlyMap<string, Float32Array>;
+  size = 64;
+  private byName: ReadonlyMap<string, Float32Array> = new Map();
   private readonly averaged = new Map<string, Float64Array>();
 
-  constructor(names: readonly string[], block: Block) {
+  constructor(private readonly names: readonly string[]) {}
+
+  /** The pictures have come: those that stand on the page already are painted. */
+  fill(block: Block, root: HTMLElement): void {
     const [, size = 0] = block.shape;
     this.size = size;
     const n = 4 * size * size;
     this.byName = new Map(
-      names.map((name, i) => [
+      this.names.map((name, i) => [
         name,
         Float32Array.from(
           block.halfs.subarray(i * n, (i + 1) * n),
@@ -23,6 +27,8 @@ export class Thumbnails {
         ),
       ]),
     );
+    for (const canvas of root.querySelectorAll<HTMLCanvasElement>("canvas.thumbnail"))
+      this.paint(canvas, canvas.dataset.material!);
   }
 
   /** The picture of a recipe, ready for a canvas. */
@@ -59,11 +65,14 @@ export class Thumbnails {
 
   /** A canvas with the picture of one material. */
   canvas(name: string): HTMLCanvasElement {
-    const canvas = document.createElement("canvas");
-    canvas.className = "thumbnail";
+    const canvas = el("canvas.thumbnail", { "data-material": name });
+    this.paint(canvas, name);
+    return canvas;
+  }
+
+  private paint(canvas: HTMLCanvasElement, name: string): void {
     canvas.width = canvas.height = this.size;
     canvas.getContext("2d")!.putImageData(this.of(name), 0, 0);
-    return canvas;
   }
 
   private blocksOf(name: string, n: number): Float64Array {

@@ -1,6 +1,6 @@
 import { expect, test } from "vitest";
 
-import { Problem } from "../src/api/client";
+import { Later } from "../src/api/client";
 import { read } from "../src/api/http";
 
 /** An answer of eight bytes of which four come, and then an error. */
@@ -12,11 +12,11 @@ function broken(error: Error): Response {
   return new Response(body, { headers: { "Content-Length": "8" } });
 }
 
-test("an answer that breaks off is a problem that says what to do", async () => {
+test("an answer that breaks off is asked for again", async () => {
   const shares: number[] = [];
   const reading = read(broken(new TypeError("network error")), (share) => shares.push(share));
-  await expect(reading).rejects.toThrow(Problem);
-  await expect(reading).rejects.toThrow(/broke off on its way: reload the page/);
+  await expect(reading).rejects.toThrow(Later);
+  await expect(reading).rejects.toThrow(/broke off on its way/);
   expect(shares).toEqual([0.5]);
 });
 

@@ -186,7 +186,10 @@ Image = Annotated[
 ]
 SceneName = Annotated[str, typer.Option(help="teapot, spheres, sphere or trio.")]
 Environment = Annotated[
-    Path | None, typer.Option("--env", help="Environment (.hdr, .exr) in place of the studio.")
+    Path | None,
+    typer.Option(
+        "--env", help="Environment (.hdr, .exr, or `studio`) in place of the scene's light."
+    ),
 ]
 ShowEnv = Annotated[
     bool,

@@ -7,6 +7,7 @@ from .blocks import columns_per_piece, ranges
 from .build import build_library
 from .coding import Coding, Precision
 from .compact import CompactLibrary
+from .joined import Joined
 from .library import Library, LibraryRef, Streamed, Verdict
 from .opening import open_library
 from .procedural import ProceduralLibrary
@@ -17,6 +18,7 @@ __all__ = [
     "DEFAULT_LIBRARY",
     "Coding",
     "CompactLibrary",
+    "Joined",
     "Library",
     "LibraryRef",
     "Origin",

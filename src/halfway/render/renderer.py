@@ -30,6 +30,9 @@ from .scenes import SCENES, Material, Scene
 from .studio import studio
 from .variant import Device, compiles, load_mitsuba, register
 
+STUDIO = "studio"
+"""The built-in environment, in place of a file."""
+
 BACKGROUND = 0.03
 """Radiance behind the objects of a scene without a ground."""
 BACKDROP_SPP = 64, 256
@@ -55,7 +58,7 @@ class Renderer:
     seed : int
         Of the samples: the same seed gives the same picture, and the same noise in every picture of a route.
     env : path, optional
-        Environment in place of the studio: latitude-longitude, ``.hdr`` or ``.exr``, up is up.
+        Environment in place of the scene's light: latitude-longitude, ``.hdr`` or ``.exr``, up is up; or ``"studio"``.
     mesh : path, optional
         In place of every object of the scene: ``.ply`` or ``.obj``, y up.
     bounces : int, optional
@@ -99,6 +102,8 @@ class Renderer:
         work: Work = HERE,
     ) -> None:
         self.scene = _scene(scene)
+        if str(env) == STUDIO:
+            self.scene, env = replace(self.scene, points=()), None
         if show_env:
             self.scene = _before_environment(self.scene, env)
         self.size = size

@@ -8,38 +8,46 @@
     GET  /api/tables/{material}                  a table as half floats (`blocks`)
     GET  /api/thumbnails                         small pictures of all materials, as half floats
     GET  /api/environment                        the studio, as half floats
-    POST /api/export/{format}                    a recipe's file: merl or bsdf
+    POST /api/export/{format}                    a recipe's file (`taking`)
+    POST /api/materials/{file}                   a measurement that is a material from now on: its file
     GET  /api/docs.json                          this, as OpenAPI
 
-Every mistake is answered as ``{"error": "one line"}``.
+Every mistake is answered as ``{"error": "one line"}``. What takes longer than the explorer's patience is answered with 202 and how far
+it is (`NotYet`): ask again. Large answers are compressed where the browser takes it, and name their content (ETag).
 """
 
-from collections.abc import AsyncIterator, Iterable
+from collections.abc import AsyncIterator, Callable, Iterable, Mapping
 from importlib.metadata import version
 from threading import Thread
 from typing import Annotated, Any
+from urllib.parse import quote
 
 from fastapi import FastAPI, Path, Request, Response
 from fastapi.exceptions import RequestValidationError
 from fastapi.responses import JSONResponse, StreamingResponse
+from starlette.concurrency import run_in_threadpool
 from starlette.exceptions import HTTPException
 
 from ..errors import HalfwayError
 from ..library import Library
 from ..tasks import HERE, Work
 from .blocks import Block
-from .explorer import SUFFIXES, Explorer
+from .explorer import Explorer
 from .guard import LOOPBACK, Guard
-from .page import Page
+from .making import NotYetError
+from .page import Asset, Page
 from .schema import (
+    Added,
     LegView,
     LibrarySummary,
+    NotYet,
     Point,
     PositionView,
     Problem,
     RecipeDocument,
     SpaceView,
 )
+from .taking import SUFFIXES
 
 Name = Annotated[str, Path(max_length=200)]
 MISTAKES: dict[int | str, dict[str, Any]] = {400: {"model": Problem}, 404: {"model": Problem}}
@@ -48,6 +56,10 @@ BYTES: dict[int | str, dict[str, Any]] = {
     200: {"content": {"application/octet-stream": {}}},
 }
 CHUNK = 1 << 20
+REVALIDATED = "no-cache"
+IMMUTABLE = "public, max-age=31536000, immutable"
+"""Of files whose name has a hash of their content."""
+HASHED = "assets/"
 
 
 def create_app(
@@ -57,12 +69,15 @@ def create_app(
     work: Work = HERE,
     hosts: Iterable[str] = LOOPBACK,
     warm: bool = False,
+    patience: float | None = None,
 ) -> FastAPI:
     """The application that answers for ``library``.
 
-    Without a ``page`` it is the API alone. ``warm`` prepares, beside the first answers, what the first route would wait for.
+    Without a ``page`` it is the API alone. ``warm`` prepares, beside the first answers, what the first route would wait for;
+    ``patience`` is that of `Explorer`.
     """
-    return app_of(Explorer(library, work=work), page=page, hosts=hosts, warm=warm)
+    explorer = Explorer(library, work=work, patience=patience)
+    return app_of(explorer, page=page, hosts=hosts, warm=warm)
 
 
 def app_of(
@@ -111,35 +126,43 @@ def _add_queries(app: FastAPI, explorer: Explorer) -> None:
 
     @app.post("/api/export/{format}", response_class=Response, responses=BYTES)
     def export(format: Name, recipe: RecipeDocument) -> StreamingResponse:
-        parts = explorer.export(format, recipe)
+        parts, summary = explorer.export(format, recipe)
         headers = {
             "Content-Length": str(sum(map(len, parts))),
+            "Halfway-Summary": quote(summary),
             "Content-Disposition": f'attachment; filename="halfway{SUFFIXES[format]}"',
         }
         return StreamingResponse(
             _chunks(parts), media_type="application/octet-stream", headers=headers
         )
 
+    @app.post("/api/materials/{file}")
+    async def add(file: Name, request: Request) -> Added:
+        content = await request.body()
+        return Added(name=await run_in_threadpool(explorer.add, file, content))
+
 
 def _add_blocks(app: FastAPI, explorer: Explorer) -> None:
-    checksum = explorer.library.checksum[:16]
+    def answer(request: Request, of: Callable[[], Block]) -> Response:
+        # The checksum names every sample of the library, so an answer that the browser kept is good.
+        etag = f'"{explorer.library.checksum[:16]}-1"'
+        if request.headers.get("if-none-match") == etag:
+            return _unchanged(etag, REVALIDATED)
+        block = of()
+        return _content(request, block, "application/octet-stream", etag, block.headers)
 
     @app.get("/api/tables/{material}", response_class=Response, responses=BYTES)
     def table(material: Name, request: Request) -> Response:
-        # The checksum names every sample of the library, so an answer that the browser kept is good.
-        etag = f'"{checksum}-1"'
-        if request.headers.get("if-none-match") == etag:
-            explorer.library.index(material)
-            return Response(status_code=304, headers={"ETag": etag})
-        return _block(explorer.table(material), etag)
+        explorer.library.index(material)
+        return answer(request, lambda: explorer.table(material))
 
     @app.get("/api/thumbnails", response_class=Response, responses=BYTES)
-    def thumbnails() -> Response:
-        return _block(explorer.thumbnails())
+    def thumbnails(request: Request) -> Response:
+        return answer(request, explorer.thumbnails)
 
     @app.get("/api/environment", response_class=Response, responses=BYTES)
-    def environment() -> Response:
-        return _block(explorer.environment())
+    def environment(request: Request) -> Response:
+        return answer(request, explorer.environment)
 
 
 def _add_page(app: FastAPI, page: Page) -> None:
@@ -148,16 +171,20 @@ def _add_page(app: FastAPI, page: Page) -> None:
         found = page.assets.get(path or "index.html")
         if found is None:
             raise HTTPException(404)
-        headers = {"ETag": found.etag, "Cache-Control": "no-cache"}
+        kept = IMMUTABLE if path.startswith(HASHED) else REVALIDATED
         if request.headers.get("if-none-match") == found.etag:
-            return Response(status_code=304, headers=headers)
-        return Response(found.body, media_type=found.media_type, headers=headers)
+            return _unchanged(found.etag, kept)
+        return _content(request, found, found.media_type, found.etag, {"Cache-Control": kept})
 
 
 def _answer_mistakes(app: FastAPI) -> None:
     @app.exception_handler(HalfwayError)
     def mistake(_: Request, error: HalfwayError) -> JSONResponse:
         return JSONResponse({"error": str(error)}, 400)
+
+    @app.exception_handler(NotYetError)
+    def later(_: Request, error: NotYetError) -> JSONResponse:
+        return JSONResponse(NotYet(error=str(error), progress=error.progress).model_dump(), 202)
 
     @app.exception_handler(RequestValidationError)
     def malformed(_: Request, error: RequestValidationError) -> JSONResponse:
@@ -180,9 +207,18 @@ def _answer_mistakes(app: FastAPI) -> None:
         return JSONResponse({"error": text}, 500)
 
 
-def _block(block: Block, etag: str | None = None) -> Response:
-    headers = {**block.headers, "Cache-Control": "no-cache", **({"ETag": etag} if etag else {})}
-    return Response(block.body, media_type="application/octet-stream", headers=headers)
+def _content(
+    request: Request, content: Asset | Block, media_type: str, etag: str, more: Mapping[str, str]
+) -> Response:
+    headers = {"Cache-Control": REVALIDATED, "ETag": etag, "Vary": "Accept-Encoding", **more}
+    if "gzip" not in request.headers.get("accept-encoding", ""):
+        return Response(content.body, media_type=media_type, headers=headers)
+    headers["Content-Encoding"] = "gzip"
+    return Response(content.packed, media_type=media_type, headers=headers)
+
+
+def _unchanged(etag: str, kept: str) -> Response:
+    return Response(status_code=304, headers={"ETag": etag, "Cache-Control": kept})
 
 
 async def _chunks(parts: list[bytes | memoryview]) -> AsyncIterator[bytes]:

@@ -8,11 +8,16 @@ measured and 0 elsewhere, where RGB is 0 too: the hardware's trilinear filter th
 their quotient is the interpolation renormalised over the measured corners.
 """
 
+import gzip
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
 from ..brdf import TabularBrdf, half_scale
+
+LEVEL = 4
+"""A table takes half the time of level 6, and 2 % more bytes."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,6 +44,11 @@ class Block:
         measured = np.logical_and.reduce(np.isfinite(table.values))
         values = np.where(measured, table.values, np.float32(0))
         return cls.of(np.moveaxis(values, 0, -1), measured)
+
+    @cached_property
+    def packed(self) -> bytes:
+        """The body by gzip: a MERL table of 11.7 MB in 1 to 2 MB. The same block makes the same bytes."""
+        return gzip.compress(self.body, LEVEL, mtime=0)
 
     @property
     def headers(self) -> dict[str, str]:

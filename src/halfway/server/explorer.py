@@ -1,30 +1,30 @@
 """What the explorer knows: a library, its spaces and pictures, and how to answer for them.
 
-No HTTP here. What is dear is computed once: the principal components and the thumbnails when the explorer is made, a
-space when it is first asked for. Tables are kept in bounded number.
+No HTTP here. What is dear is computed once, when it is first asked for: the pictures of all materials, and each space. Tables are
+kept in bounded number.
 """
 
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import replace
 from functools import lru_cache, partial
 from importlib.metadata import version
-from pathlib import Path
-from tempfile import TemporaryDirectory
+from pathlib import PurePath
 from threading import Lock
 
 import numpy as np
 
 from ..components import Pca
-from ..errors import OutputError, RecipeError, SpaceError
-from ..formats import MerlFile, encode_header, write_brdf
-from ..library import Library
+from ..errors import HalfwayError, RecipeError, SpaceError
+from ..library import Joined, Library
 from ..look import Looks
 from ..recipes import Blend, Mixer, Recipe
 from ..render import SCENES, studio
 from ..space import PACES, SPACES, Embedding, Route, Scores, Space, lengths, make_space
 from ..space import route as route_through
-from ..tasks import HERE, Work, silent
+from ..tasks import HERE, Work
 from .blocks import Block
+from .making import Once, Progress
 from .schema import (
     Axis,
     EmbeddingView,
@@ -40,6 +40,7 @@ from .schema import (
     SpaceView,
     WeightTable,
 )
+from .taking import SUFFIXES, Taken, read, written
 
 N_AXES = 3
 """Scores that can be looked at together."""
@@ -48,48 +49,63 @@ N_TABLES = 16
 N_LEGS = 1000
 """Legs kept ready to be sent, some 10 kB each."""
 MAX_STOPS = 32
-SUFFIXES = {"merl": ".binary", "bsdf": ".bsdf"}
-"""Formats to take a material home in."""
 
 
 class Explorer:
-    """What the page asks of a library: its spaces, routes, tables and pictures, without HTTP."""
+    """What the page asks of a library: its spaces, routes, tables and pictures, without HTTP.
 
-    def __init__(self, library: Library, *, work: Work = HERE) -> None:
+    ``patience`` is how many seconds an answer may wait for what is computed once, before `NotYetError` says how far that is;
+    None waits for it.
+    """
+
+    def __init__(
+        self, library: Library, *, work: Work = HERE, patience: float | None = None
+    ) -> None:
+        self._patience = patience
+        self._progress = Progress(work.track)
+        self._work = replace(work, track=self._progress)
+        self._adding = Lock()
+        self._begin(library)
+
+    def _begin(self, library: Library) -> None:
         self.library = library
-        self._work = work
-        self.pictures = Looks.fit(library, work=work)
-        # The page opens with the first space; the others are made when they are asked for.
-        first = next(iter(SPACES))
-        self._spaces = {first: _shown(first, library, work)}
-        self._making = Lock()
+        progress = self._progress
+        self._looks = Once(partial(Looks.fit, library, work=self._work), progress)
+        self._spaces = {
+            name: Once(partial(_shown, name, library, self._work), progress) for name in SPACES
+        }
+        self._scores = Once(self._first_scores, progress)
         self._block = lru_cache(N_TABLES)(partial(_block_of, library))
         self._leg = lru_cache(N_LEGS)(self._leg_of)
         self._mixer = Mixer(library, n_rows=12)
 
     def warm(self) -> None:
-        """Make what the first route needs: compiled metrics and solvers take a second to load."""
-        self.leg(next(iter(SPACES)), self.library.names[0], self.library.names[-1])
+        """Compute what the first route needs: compiled metrics and solvers take a second to load."""
+        with suppress(HalfwayError):  # said to whoever asks
+            pictures = self._looks.get(None)
+            space = self._spaces[next(iter(SPACES))].get(None)
+            leg_view(Route.through(space, [space.names[0], space.names[-1]]), pictures)
+
+    @property
+    def pictures(self) -> Looks:
+        """Of all materials."""
+        return self._looks.get(self._patience)
 
     def summary(self) -> LibrarySummary:
         """What is being explored."""
         library = self.library
-        colours = np.median(self.pictures.images, axis=1).clip(0).tolist()
         return LibrarySummary(
             version=version("halfway"),
             name=library.name,
+            address=library.address,
             description=library.origin.description,
             source=library.origin.source,
             licence=library.origin.licence,
             checksum=library.checksum,
             grid=[Axis.model_validate(vars(axis)) for axis in library.grid.axes],
-            materials=[
-                Material(name=name, colour=(r, g, b))
-                for name, (r, g, b) in zip(library.names, colours, strict=True)
-            ],
+            materials=[Material(name=name) for name in library.names],
             spaces=[SpaceSummary(name=name, text=kind.summary) for name, kind in SPACES.items()],
             paces=list(PACES),
-            thumbnail_size=self.pictures.scene.size,
             lights=[
                 PointLight(at=light.at, intensity=light.intensity)
                 for light in SCENES["spheres"].points
@@ -100,7 +116,7 @@ class Explorer:
     def space_view(self, name: str) -> SpaceView:
         """The space called ``name``, to be looked at; its first scores where it has no points of its own."""
         space = self.space(name)
-        shown = space.embeddings() or [self._scores()]
+        shown = space.embeddings() or [self._scores.get(self._patience)]
         return SpaceView(
             name=space.name,
             has_points=bool(space.charts),
@@ -118,7 +134,7 @@ class Explorer:
                 f"a route of {len(stops)} stops is too long: expected at most {MAX_STOPS}."
             )
         return route_through(
-            self.library, *stops, space=self.space(space), pace=pace, work=self._quiet
+            self.library, *stops, space=self.space(space), pace=pace, work=self._work
         )
 
     def position(self, asked: Point) -> PositionView:
@@ -143,49 +159,41 @@ class Explorer:
         picture = studio()
         return Block.of(picture, np.ones(picture.shape[:-1]))
 
-    def export(self, format: str, document: RecipeDocument) -> list[bytes | memoryview]:
-        """The file of a recipe, in parts: what ``halfway mix`` writes."""
-        if format not in SUFFIXES:
-            raise OutputError(
-                f"{format!r} is no format to export: expected {' or '.join(SUFFIXES)}."
-            )
+    def export(self, format: str, document: RecipeDocument) -> Taken:
+        """The file of a recipe."""
         recipe = Recipe.from_json(document.model_dump())
         if recipe.library.name != self.library.name:
             raise RecipeError(
                 f"the recipe is of the library {recipe.library.name!r}, and this explorer shows {self.library.name!r}: "
                 "open that library with `halfway view`."
             )
-        table = self._mixer.mix(recipe)
-        if format == "merl":
-            merl = MerlFile.from_table(table)
-            return [
-                encode_header(merl.grid),
-                np.ascontiguousarray(merl.samples, "<f8").data.cast("B"),
-            ]
-        with TemporaryDirectory(prefix="halfway-") as folder:
-            path = Path(folder) / f"table{SUFFIXES[format]}"
-            write_brdf(path, table)
-            return [path.read_bytes()]
+        return written(self._mixer.mix(recipe), format, origin=self.library.origin.description)
 
-    def _scores(self) -> Embedding:
+    def add(self, file: str, content: bytes) -> str:
+        """Take the measurement in a file in, beside the library's materials, until the explorer ends; what it is called."""
+        brdf = read(PurePath(file).name, content)
+        with self._adding:
+            stem = PurePath(file).stem
+            taken = [name for name in self.library.names if name.partition(" (")[0] == stem]
+            name = f"{stem} ({len(taken) + 1})" if taken else stem
+            self._begin(Joined(self.library, name, brdf))
+        return name
+
+    def _first_scores(self) -> Embedding:
         """The first scores of all channels, of which nothing is a point to go to."""
-        scores = Scores.joint(Pca.fit(self.library, work=self._quiet), N_AXES)
+        scores = Scores.joint(Pca.fit(self.library, work=self._work), N_AXES)
         axes = [name.replace("_", " ") for name in scores.names]
         return Embedding(scores.label, "all", axes, scores.points, [])
 
     def _leg_of(self, space: str, start: str, stop: str) -> LegView:
         return leg_view(Route.through(self.space(space), [start, stop]), self.pictures)
 
-    @property
-    def _quiet(self) -> Work:
-        return replace(self._work, track=silent)
-
     def space(self, name: str) -> Space:
-        """The space called ``name``, made when it is first asked for."""
-        with self._making:
-            if name not in self._spaces:
-                self._spaces[name] = _shown(name, self.library, self._quiet)
-            return self._spaces[name]
+        """The space called ``name``."""
+        if name not in self._spaces:
+            # Says which there are.
+            make_space(name, self.library)
+        return self._spaces[name].get(self._patience)
 
 
 def leg_view(route: Route, pictures: Looks) -> LegView:

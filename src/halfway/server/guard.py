@@ -14,6 +14,9 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 MAX_BODY = 1 << 20
 """Bytes of a request's body: a recipe of a thousand materials takes 50,000."""
+MAX_FILE = 1 << 27
+"""Bytes of a measurement: a MERL file takes 35 MB."""
+FILES = "/api/materials/"
 LOOPBACK = ("127.0.0.1", "localhost", "[::1]")
 META_POLICY = "; ".join(
     [
@@ -51,13 +54,13 @@ class Guard:
         headers = {
             key.decode("latin-1"): value.decode("latin-1") for key, value in scope["headers"]
         }
-        refusal = self._refusal(headers)
+        refusal = self._refusal(scope["path"], headers)
         if refusal is not None:
             await _answer(send, *refusal)
             return
         await self._app(scope, receive, _marking(send))
 
-    def _refusal(self, headers: dict[str, str]) -> tuple[int, str] | None:
+    def _refusal(self, path: str, headers: dict[str, str]) -> tuple[int, str] | None:
         host = headers.get("host", "")
         if _name(host) not in self._hosts:
             return (
@@ -70,8 +73,9 @@ class Guard:
         if "transfer-encoding" in headers:
             return 411, "a request without a length is refused: send Content-Length."
         length = headers.get("content-length", "0")
-        if not length.isdecimal() or int(length) > MAX_BODY:
-            return 413, f"a request of {length} bytes is too large: expected at most {MAX_BODY}."
+        most = MAX_FILE if path.startswith(FILES) else MAX_BODY
+        if not length.isdecimal() or int(length) > most:
+            return 413, f"a request of {length} bytes is too large: expected at most {most}."
         return None
 
 

@@ -3,10 +3,12 @@
 The wheel carries the built page. A checkout builds it when it is absent or older than its source; see `building`.
 """
 
+import gzip
 import hashlib
 import sys
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from importlib.resources import files
 from importlib.resources.abc import Traversable
 from pathlib import Path
@@ -31,6 +33,11 @@ class Asset:
     body: bytes
     media_type: str
     etag: str
+
+    @cached_property
+    def packed(self) -> bytes:
+        """The body by gzip."""
+        return gzip.compress(self.body, mtime=0)
 
 
 @dataclass(frozen=True)

@@ -12,6 +12,8 @@ from ..tasks import HERE, Work
 from .page import Page
 
 PORT = 8765
+PATIENCE = 0.5
+"""Seconds that an answer may take before the page is told how far it is."""
 
 
 def serve(
@@ -44,7 +46,7 @@ def serve(
 
         from .app import create_app
 
-        app = create_app(library, page=page, work=work, warm=True)
+        app = create_app(library, page=page, work=work, warm=True, patience=PATIENCE)
         config = uvicorn.Config(
             app, log_level="warning", access_log=False, timeout_graceful_shutdown=1
         )

@@ -26,12 +26,27 @@ class Problem(Model):
     error: str
 
 
+class ProgressView(Model):
+    """How far what is being computed is."""
+
+    label: str
+    done: int
+    total: int
+    seconds: float
+    """That it took until now."""
+
+
+class NotYet(Model):
+    """An answer that is still being computed: ask again."""
+
+    error: str
+    progress: ProgressView | None
+
+
 class Material(Model):
     """One measured material of the library."""
 
     name: str
-    colour: Vector
-    """Linear RGB of its picture on a lit sphere (median over the sphere), for labels."""
 
 
 class Axis(Model):
@@ -65,6 +80,8 @@ class LibrarySummary(Model):
     format: Literal[1] = 1
     version: str
     name: str
+    address: str
+    """What opens it."""
     description: str
     """One line; says "stand-in" where the materials are fits and not measurements."""
     source: str
@@ -74,8 +91,6 @@ class LibrarySummary(Model):
     materials: list[Material]
     spaces: list[SpaceSummary]
     paces: list[str]
-    thumbnail_size: int
-    """Pixels along each side of the pictures in ``/api/thumbnails``."""
     lights: list[PointLight]
     """Of the scene of three point lights."""
     exports: list[str]
@@ -164,6 +179,12 @@ class PositionView(Model):
     """The point asked for, or the nearest that is a mix."""
     inside: bool
     """Whether the point asked for is a mix."""
+
+
+class Added(Model):
+    """A measurement that is a material of the library now."""
+
+    name: str
 
 
 class BlockFile(Model):

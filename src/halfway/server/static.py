@@ -18,7 +18,6 @@ write them down. Beyond them all it takes the simplex that is least beyond, with
 mix nearby, where Python finds the nearest. Exported tables alone stay with Python: the page holds half floats.
 """
 
-import gzip
 import warnings
 from functools import partial
 from itertools import combinations
@@ -99,8 +98,7 @@ class _Files:
         self.write(path, model.model_dump_json().encode())
 
     def block(self, path: str, block: Block) -> BlockFile:
-        # Without a time: the same library makes the same bytes.
-        self.write(path, gzip.compress(block.body, mtime=0))
+        self.write(path, block.packed)
         return BlockFile(shape=list(block.shape), scale=block.scale)
 
 

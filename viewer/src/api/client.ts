@@ -1,15 +1,40 @@
 // What the page asks for, whoever answers: a server (`http`), a folder of files (`files`), or a notebook's kernel (`kernel`).
 
-import type { LegView, LibrarySummary, PositionView, RecipeDocument, SpaceView } from "./schema";
+import type {
+  LegView,
+  LibrarySummary,
+  PositionView,
+  ProgressView,
+  RecipeDocument,
+  SpaceView,
+} from "./schema";
 
 /** A failure that a person can act on, in one line that says how. */
 export class Problem extends Error {}
+
+/** What is not to be had now, and is asked for again: it is being computed, or nobody answers. */
+export class Later extends Problem {
+  constructor(
+    message: string,
+    /** Whether it is being computed, and how far that is; else nobody answers. */
+    readonly computed = false,
+    readonly progress: ProgressView | null = null,
+  ) {
+    super(message);
+  }
+}
 
 /** Half floats for the graphics card. */
 export interface Block {
   readonly halfs: Uint16Array<ArrayBuffer>;
   readonly shape: readonly number[];
   readonly scale: readonly [number, number, number];
+}
+
+/** A file, and a line on how well it stands for the table where it is not the table. */
+export interface Exported {
+  readonly file: Blob;
+  readonly summary: string;
 }
 
 /** What the page asks for; every failure that a person can act on is a `Problem`. */
@@ -24,6 +49,8 @@ export interface Client {
   readonly environment: () => Promise<Block>;
   /** One material's table; `onProgress` is told the share that has come, in [0, 1]. */
   readonly table: (name: string, onProgress?: (share: number) => void) => Promise<Block>;
-  /** The mixed table as a file, in one of the library's `exports`. */
-  readonly exported: (format: string, recipe: RecipeDocument) => Promise<Blob>;
+  /** A recipe's file, in one of the library's `exports`. */
+  readonly exported: (format: string, recipe: RecipeDocument) => Promise<Exported>;
+  /** Takes a file of a measurement in, as a material of the library from now on; who cannot has no such function. */
+  readonly add?: (file: File) => Promise<string>;
 }

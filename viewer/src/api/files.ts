@@ -3,7 +3,7 @@
 import { locate } from "../charts";
 import { pointOf } from "../coordinates";
 import { toDocument } from "../recipe";
-import { type Block, type Client, Problem } from "./client";
+import { type Block, type Client, Later, Problem } from "./client";
 import { read } from "./http";
 import type { BlockFile, ChartView, Folder, PositionView, SpaceView } from "./schema";
 
@@ -75,6 +75,7 @@ async function block(
 
 async function fetched(path: string): Promise<Response> {
   const answer = await fetch(path).catch(() => {
+    if (location.protocol !== "file:") throw new Later(`${path} cannot be read now: it is asked for again.`);
     throw new Problem(
       `${path} cannot be read: a page opened as a file may read no others, so serve the folder.`,
     );

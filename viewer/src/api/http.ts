@@ -1,7 +1,12 @@
 // Asking the server that served the page.
 
-import { type Client, Problem } from "./client";
-import { type Ask, clientOver } from "./requests";
+import { type Client, Later } from "./client";
+import { type Ask, adder, clientOver } from "./requests";
+
+const AWAY =
+  "The server does not answer: is `halfway view` still running in its terminal? What is shown stays, and the page goes on when it answers.";
+
+const HALF_BYTES = 2;
 
 const ask: Ask = async ({ method, path, body, signal, onProgress }) => {
   const answer = await fetched(path, {
@@ -12,14 +17,14 @@ const ask: Ask = async ({ method, path, body, signal, onProgress }) => {
   return { status: answer.status, headers: new Map(answer.headers), body: await read(answer, onProgress) };
 };
 
-export const http: Client = clientOver(ask);
+export const http: Client = { ...clientOver(ask), add: adder(ask) };
 
 async function fetched(path: string, options: RequestInit): Promise<Response> {
   try {
     return await fetch(path, options);
   } catch (error) {
     if (error instanceof DOMException && error.name === "AbortError") throw error;
-    throw new Problem("The server does not answer: is `halfway view` still running in its terminal?");
+    throw new Later(AWAY);
   }
 }
 
@@ -29,15 +34,13 @@ export async function read(answer: Response, onProgress?: (share: number) => voi
     return await body(answer, onProgress);
   } catch (error) {
     if (error instanceof DOMException && error.name === "AbortError") throw error;
-    throw new Problem("An answer broke off on its way: reload the page to ask again.");
+    throw new Later("An answer broke off on its way: it is asked for again.");
   }
 }
 
 async function body(answer: Response, onProgress?: (share: number) => void): Promise<ArrayBuffer> {
-  const length = Number(answer.headers.get("Content-Length"));
-  if (!onProgress || !length || answer.headers.get("Content-Encoding") || answer.body === null) {
-    return answer.arrayBuffer();
-  }
+  const length = lengthOf(answer.headers);
+  if (!onProgress || !length || answer.body === null) return answer.arrayBuffer();
   const bytes = new Uint8Array(length);
   let at = 0;
   const reader = answer.body.getReader();
@@ -47,4 +50,11 @@ async function body(answer: Response, onProgress?: (share: number) => void): Pro
     onProgress(at / length);
   }
   return bytes.buffer;
+}
+
+/** Bytes of the body when it is unpacked; 0 where nobody says. */
+function lengthOf(headers: Headers): number {
+  const shape = headers.get("Halfway-Shape");
+  if (shape) return shape.split(",").reduce((product, n) => product * Number(n), HALF_BYTES);
+  return headers.get("Content-Encoding") ? 0 : Number(headers.get("Content-Length"));
 }

@@ -1,13 +1,14 @@
 // The server's API as a `Client`, over anything that carries requests: see halfway.server.app.
 // A mistake comes back as {"error": "one line"} and is thrown as a `Problem`.
 
-import { type Block, type Client, Problem } from "./client";
+import { type Block, type Client, Later, Problem } from "./client";
+import type { Added, NotYet } from "./schema";
 
 export interface Request {
   readonly method: "GET" | "POST";
   readonly path: string;
-  /** JSON. */
-  readonly body?: string;
+  /** JSON, or a file where the server is asked over HTTP. */
+  readonly body?: string | File;
   readonly signal?: AbortSignal;
   readonly onProgress?: (share: number) => void;
 }
@@ -36,13 +37,27 @@ export function clientOver(ask: Ask): Client {
     environment: async () => block(await get("api/environment")),
     table: async (name, onProgress = () => {}) =>
       block(await said(ask, { method: "GET", path: `api/tables/${encodeURIComponent(name)}`, onProgress })),
-    exported: async (format, recipe) =>
-      new Blob([(await post(`api/export/${encodeURIComponent(format)}`, recipe)).body]),
+    exported: async (format, recipe) => {
+      const { headers, body } = await post(`api/export/${encodeURIComponent(format)}`, recipe);
+      return { file: new Blob([body]), summary: decodeURIComponent(headers.get("halfway-summary") ?? "") };
+    },
   };
+}
+
+/** Takes a file in by an `Ask` that carries files. */
+export function adder(ask: Ask): NonNullable<Client["add"]> {
+  return async (file) =>
+    json<Added>(
+      await said(ask, { method: "POST", path: `api/materials/${encodeURIComponent(file.name)}`, body: file }),
+    ).name;
 }
 
 async function said(ask: Ask, request: Request): Promise<Answer> {
   const answer = await ask(request);
+  if (answer.status === 202) {
+    const { error, progress } = json<NotYet>(answer);
+    throw new Later(error, true, progress);
+  }
   if (answer.status >= 200 && answer.status < 300) return answer;
   throw new Problem(errorIn(answer) ?? `The server answered ${answer.status} to ${request.path}.`);
 }

@@ -5,10 +5,23 @@ export interface Problem {
   readonly error: string;
 }
 
+/** How far what is being computed is. */
+export interface ProgressView {
+  readonly label: string;
+  readonly done: number;
+  readonly total: number;
+  readonly seconds: number;
+}
+
+/** An answer that is still being computed: ask again. */
+export interface NotYet {
+  readonly error: string;
+  readonly progress: ProgressView | null;
+}
+
 /** One measured material of the library. */
 export interface Material {
   readonly name: string;
-  readonly colour: readonly [number, number, number];
 }
 
 /** One axis of the grid; see `halfway.halfdiff.Axis`. */
@@ -37,6 +50,7 @@ export interface LibrarySummary {
   readonly format: 1;
   readonly version: string;
   readonly name: string;
+  readonly address: string;
   readonly description: string;
   readonly source: string;
   readonly licence: string;
@@ -45,7 +59,6 @@ export interface LibrarySummary {
   readonly materials: readonly Material[];
   readonly spaces: readonly SpaceSummary[];
   readonly paces: readonly string[];
-  readonly thumbnail_size: number;
   readonly lights: readonly PointLight[];
   readonly exports: readonly string[];
 }
@@ -111,6 +124,11 @@ export interface PositionView {
   readonly recipe: RecipeDocument;
   readonly point: readonly number[];
   readonly inside: boolean;
+}
+
+/** A measurement that is a material of the library now. */
+export interface Added {
+  readonly name: string;
 }
 
 /** What a file of half floats holds. */

@@ -1,8 +1,11 @@
 // The head: the library, the search, the space, undo, theme and link.
 
+import type { LibrarySummary } from "../api/schema";
+import { toCommand } from "../command";
 import type { Context } from "../context";
-import { dropdown, el, icon, iconButton } from "../dom";
+import { dropdown, el, type Icon, icon, iconButton } from "../dom";
 import type { Theme } from "../state";
+import { helpButton } from "./help";
 import { search } from "./search";
 
 /** Milliseconds that a button says what it did. */
@@ -18,6 +21,8 @@ export function head(context: Context): HTMLElement {
     "header.line.head",
     el("h1.line.brand", el("i"), "halfway"),
     el("p.cut.about", { title: `${about}\n${library.source}\n${library.licence}` }, about),
+    isStandIn(library) &&
+      el("span.badge", { title: `${library.source}\n${library.licence}` }, "stand-ins, not measurements"),
     search(context),
     choice(context, "space", "Space", spaces),
     paces.length > 1 && choice(context, "pace", "Pace", paces),
@@ -25,9 +30,22 @@ export function head(context: Context): HTMLElement {
       "div.group",
       ...undoButtons(context),
       themeButton(context),
-      options.address && linkButton(options.address),
+      options.address &&
+        copyButton("link", "Copy a link to this view", options.address, "The address bar has the link"),
+      copyButton(
+        "terminal",
+        "Copy the command that makes this picture",
+        () => toCommand(store.get()),
+        "The browser forbids it",
+      ),
+      helpButton(),
     ),
   );
+}
+
+/** Fits say so in their library's one line. */
+function isStandIn({ description }: LibrarySummary): boolean {
+  return description.includes("stand-in");
 }
 
 function choice(
@@ -60,18 +78,18 @@ function themeButton({ store }: Context): HTMLElement {
   return iconButton("theme", "Dark or light", () => store.set({ theme: next[store.get().scheme]! }));
 }
 
-function linkButton(address: () => string): HTMLElement {
-  const button = iconButton("link", "Copy a link to this view", () => {
-    navigator.clipboard.writeText(address()).then(
+function copyButton(name: Icon, label: string, text: () => string, otherwise: string): HTMLElement {
+  const button = iconButton(name, label, () => {
+    navigator.clipboard.writeText(text()).then(
       () => flash("Copied"),
-      () => flash("The address bar has the link"),
+      () => flash(otherwise),
     );
   });
-  const flash = (text: string) => {
-    button.replaceChildren(text);
+  const flash = (said: string) => {
+    button.replaceChildren(said);
     button.style.width = "auto";
     setTimeout(() => {
-      button.replaceChildren(icon("link"));
+      button.replaceChildren(icon(name));
       button.style.width = "";
     }, SAID);
   };

@@ -8,6 +8,7 @@ import { LineMaterial } from "three/addons/lines/LineMaterial.js";
 
 import type { Thumbnails } from "../thumbnails";
 import { turnArm, widen } from "./camera";
+import { toRenderer } from "./card";
 import type { SpaceMap } from "./maps";
 import { type Look, Spheres } from "./spheres";
 
@@ -28,6 +29,7 @@ export class Cloud {
   private readonly renderer: THREE.WebGLRenderer;
   private readonly scene = new THREE.Scene();
   private readonly spheres: Spheres;
+  private readonly axes = lines(0.35);
   private readonly edges = lines(0.13);
   private readonly simplex = lines(0.8);
   private readonly route = new Line2(
@@ -43,15 +45,24 @@ export class Cloud {
   private ratio = 1;
 
   constructor(canvas: HTMLCanvasElement, names: readonly string[], thumbnails: Thumbnails) {
-    this.renderer = new THREE.WebGLRenderer({ canvas, alpha: true, antialias: true });
+    this.renderer = toRenderer({ canvas, alpha: true, antialias: true });
     this.camera.up.set(0, 0, 1);
     this.camera.position.set(1.2, -5.3, 0.7);
     this.controls = new OrbitControls(this.camera, canvas);
+    // Upwards and downwards a finger moves the page.
+    canvas.style.touchAction = "pan-y";
     this.controls.enableDamping = false;
     this.controls.minDistance = 0.6;
     this.controls.maxDistance = 14;
     this.spheres = new Spheres(names, thumbnails);
-    const backToFront = [this.edges, this.simplex, this.spheres.points, this.route, this.crossings];
+    const backToFront = [
+      this.axes,
+      this.edges,
+      this.simplex,
+      this.spheres.points,
+      this.route,
+      this.crossings,
+    ];
     backToFront.forEach((object, i) => {
       object.frustumCulled = false;
       object.renderOrder = i;
@@ -68,6 +79,10 @@ export class Cloud {
       this.edges,
       edges.map(([a, b]) => [map.points[a]!, map.points[b]!]),
     );
+  }
+
+  setAxes(segments: readonly Segment[]): void {
+    setLines(this.axes, segments);
   }
 
   /** Lines from the present material to what it is made of, or between those. */
@@ -91,7 +106,8 @@ export class Cloud {
   }
 
   setColours(text: string, accent: string, ground: string): void {
-    for (const object of [this.edges, this.simplex, this.crossings]) object.material.color.set(text);
+    for (const object of [this.axes, this.edges, this.simplex, this.crossings])
+      object.material.color.set(text);
     this.route.material.color.set(accent);
     this.spheres.setColours(text, accent, ground);
   }

@@ -19,6 +19,12 @@ export interface SpaceMap {
   readonly pointOf: (recipe: readonly Ingredient[]) => Vector3;
 }
 
+/** A value on an axis, and where it is. */
+export interface Tick {
+  readonly value: number;
+  readonly at: Vector3;
+}
+
 const MAX_QUANTILES = 13;
 /** Of the longest way of the cloud from its middle. */
 const RADIUS = 1.35;
@@ -58,6 +64,16 @@ export class CoordinateMap implements SpaceMap {
   /** Where coordinates are drawn; beyond the materials' extent, at its end. */
   pointAt(coordinates: readonly number[]): Vector3 {
     return this.toView(this.stretch(coordinates));
+  }
+
+  /** Each axis as values from its end to its end and where they are drawn, the others in their middle. */
+  axes(count: number): { readonly name: string; readonly ticks: readonly Tick[] }[] {
+    const middles = this.extents.map((extent, axis) => invert(this.scales[axis]!, 0, extent));
+    return this.embedding.axes.map((name, axis) => {
+      const even = Array.from({ length: count }, (_, i) => (2 * i) / (count - 1) - 1);
+      const values = even.map((share) => invert(this.scales[axis]!, share, this.extents[axis]!));
+      return { name, ticks: values.map((value) => ({ value, at: this.pointAt(middles.with(axis, value)) })) };
+    });
   }
 
   /** The coordinates of what is drawn at a point: the inverse of `pointAt`. */

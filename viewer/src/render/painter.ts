@@ -9,6 +9,7 @@ import * as THREE from "three";
 import type { PointLight } from "../api/schema";
 import { type Ingredient, namesIn } from "../recipe";
 import type { View } from "../scene";
+import { NoCardError, toRenderer } from "./card";
 import type { Environment } from "./environment";
 import { type Layer, Layers } from "./layers";
 import { compositeShader, environmentShader, MAX_TERMS, Pass, pointsShader } from "./shaders";
@@ -63,7 +64,7 @@ export class Painter {
     private readonly tables: Tables,
     lights: readonly PointLight[],
   ) {
-    this.renderer = new THREE.WebGLRenderer({
+    this.renderer = toRenderer({
       canvas,
       alpha: true,
       antialias: false,
@@ -73,7 +74,7 @@ export class Painter {
     this.renderer.setPixelRatio(1);
     const needed = ["EXT_color_buffer_float", "EXT_float_blend"];
     if (!needed.every((extension) => this.renderer.extensions.has(extension)))
-      throw new Error(`This browser cannot draw into float textures (${needed.join(", ")}).`);
+      throw new NoCardError(`This browser cannot draw into float textures (${needed.join(", ")}).`);
     const [uNormal, uPosition] = this.stage.target.textures;
     const surface = { uNormal, uPosition, uEye: this.stage.camera.position };
     this.environment = new Pass(environmentShader, RUNNING_MEAN).set(surface);
@@ -90,13 +91,13 @@ export class Painter {
     this.renderer.forceContextLoss();
   }
 
-  /** Another size: all pictures begin anew, and the canvas is empty until one is shown. */
-  resize(width: number, height: number): void {
+  /** Another size, for so many materials at least: all pictures begin anew, and the canvas is empty until one is shown. */
+  resize(width: number, height: number, least = MIN_LAYERS): void {
     this.renderer.setSize(width, height, false);
     this.stage.resize(width, height);
     this.target?.dispose();
     const fitting = Math.floor(LAYER_BYTES / (16 * width * height));
-    const nLayers = Math.min(MAX_TERMS, Math.max(MIN_LAYERS, fitting));
+    const nLayers = Math.min(MAX_TERMS, Math.max(least, fitting));
     this.target = layerTarget(width, height, nLayers);
     this.composite.set({ uBasis: this.target.texture });
     this.layers = new Layers(nLayers);

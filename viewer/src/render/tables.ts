@@ -8,6 +8,7 @@ import type { DrawableGrid } from "../brdf/grid";
 import { lobe } from "../brdf/lobe";
 import type { Table } from "../brdf/table";
 import { sum } from "../numbers";
+import { pauseAfter } from "../paced";
 import { chances } from "./chances";
 
 export interface TableOnCard {
@@ -25,13 +26,15 @@ const AT_ONCE = 2;
 
 export class Tables {
   /** Runs when a table has come, or could not. */
-  onChange: (problem: string | null) => void = () => {};
+  onChange: (name: string, problem: string | null) => void = () => {};
   /** Runs when more of a table has come. */
   onProgress: () => void = () => {};
   private readonly loaded = new Map<string, TableOnCard>();
   /** The share of each that has come. */
   private readonly loading = new Map<string, number>();
-  private readonly failed = new Set<string>();
+  /** How often each failed, one after another; and those that are not asked for just now. */
+  private readonly failures = new Map<string, number>();
+  private readonly resting = new Set<string>();
   private wanted: readonly string[] = [];
 
   constructor(
@@ -60,7 +63,7 @@ export class Tables {
   private fetchNext(): void {
     for (const name of this.wanted) {
       if (this.loading.size >= AT_ONCE) return;
-      if (this.loaded.has(name) || this.loading.has(name) || this.failed.has(name)) continue;
+      if (this.loaded.has(name) || this.loading.has(name) || this.resting.has(name)) continue;
       this.loading.set(name, 0);
       void this.fetch(name);
     }
@@ -74,15 +77,27 @@ export class Tables {
         this.onProgress();
       });
       this.makeRoom();
+      this.failures.delete(name);
       this.loaded.set(name, toCard({ name, grid: this.grid, halfs: block.halfs, scale: block.scale }));
     } catch (error) {
       problem = error instanceof Error ? error.message : String(error);
-      // Not asked for again by itself: the person may reload.
-      this.failed.add(name);
+      this.rest(name);
     }
     this.loading.delete(name);
-    this.onChange(problem);
+    this.onChange(name, problem);
     this.fetchNext();
+  }
+
+  /** It is asked for again, later each time that it fails. */
+  private rest(name: string): void {
+    const failures = this.failures.get(name) ?? 0;
+    this.failures.set(name, failures + 1);
+    this.resting.add(name);
+    const again = () => {
+      this.resting.delete(name);
+      this.fetchNext();
+    };
+    setTimeout(again, pauseAfter(failures));
   }
 
   private makeRoom(): void {

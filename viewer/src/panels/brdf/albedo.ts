@@ -2,7 +2,7 @@
 
 import { directionalAlbedo } from "../../brdf/albedo";
 import { clamp } from "../../numbers";
-import { marks, type Pen, type Plot, type Size, short, stroke, write, writeUpwards } from "./plot";
+import { DASHES, marks, type Pen, type Plot, type Size, short, stroke, write, writeUpwards } from "./plot";
 
 /** Directions of light, in degrees; at 90 nothing arrives. */
 const ANGLES = [...Array.from({ length: 18 }, (_, i) => 5 * i), 88];
@@ -17,18 +17,16 @@ export function albedo(): Plot {
     nSteps: ANGLES.length,
     fill: (table, samples, step) =>
       samples.set(directionalAlbedo(table, ANGLES[step]! * DEGREE, ...NODES), 3 * step),
-    draw: (pen, size, mixed) => {
-      const frame = toFrame(size, mixed);
+    draw: (pen, size, mixed, beside) => {
+      const frame = toFrame(size, mixed, beside);
       drawAxes(pen, frame);
-      pen.context.lineWidth = 1.75;
-      pen.context.globalCompositeOperation = pen.blend;
-      pen.channels.forEach((colour, c) => {
-        stroke(pen, colour, ...ANGLES.map((degrees, i) => toCanvas(frame, degrees, mixed[3 * i + c]!)));
-      });
-      pen.context.globalCompositeOperation = "source-over";
+      drawCurves(pen, frame, mixed);
+      pen.context.setLineDash([...DASHES]);
+      if (beside.length) drawCurves(pen, frame, beside);
+      pen.context.setLineDash([]);
     },
-    read: (x, _, size, mixed) => {
-      const frame = toFrame(size, mixed);
+    read: (x, _, size, mixed, beside) => {
+      const frame = toFrame(size, mixed, beside);
       const degrees = ((x - frame.x0) / frame.width) * 90;
       if (degrees < -2 || degrees > 92) return null;
       const i = clamp(Math.round(degrees / 5), 0, ANGLES.length - 1);
@@ -45,13 +43,23 @@ export function albedo(): Plot {
 
 type Frame = ReturnType<typeof toFrame>;
 
-function toFrame({ width, height }: Size, mixed: Float64Array) {
-  const high = Math.max(1, 1.05 * Math.max(...mixed));
+function toFrame({ width, height }: Size, mixed: Float64Array, beside: Float64Array) {
+  const high = Math.max(1, 1.05 * Math.max(...mixed, ...beside));
   return { x0: 46, y0: height - 36, width: width - 58, height: height - 44, high };
 }
 
 function toCanvas({ x0, y0, width, height, high }: Frame, degrees: number, value: number): [number, number] {
   return [x0 + (degrees / 90) * width, y0 - (value / high) * height];
+}
+
+function drawCurves(pen: Pen, frame: Frame, mixed: Float64Array): void {
+  const { context, blend, channels } = pen;
+  context.lineWidth = 1.75;
+  context.globalCompositeOperation = blend;
+  channels.forEach((colour, c) => {
+    stroke(pen, colour, ...ANGLES.map((degrees, i) => toCanvas(frame, degrees, mixed[3 * i + c]!)));
+  });
+  context.globalCompositeOperation = "source-over";
 }
 
 function drawAxes(pen: Pen, frame: Frame): void {

@@ -3,7 +3,18 @@
 import { type Direction, toHalfDiff } from "../../brdf/halfdiff";
 import { evaluate } from "../../brdf/table";
 import { clamp } from "../../numbers";
-import { marks, type Pen, type Plot, type Scale, type Size, scaled, short, stroke, write } from "./plot";
+import {
+  DASHES,
+  marks,
+  type Pen,
+  type Plot,
+  type Scale,
+  type Size,
+  scaled,
+  short,
+  stroke,
+  write,
+} from "./plot";
 
 /** Half degrees from -89.5 (where the light is) to 89.5. */
 const ANGLES = Array.from({ length: 359 }, (_, i) => ((i - 179) / 2) * (Math.PI / 180));
@@ -22,14 +33,17 @@ export function lobes(thetaIDegrees: number, scale: Scale): Plot {
         samples.set(evaluate(table, wi, towards(angle)), 3 * i);
       });
     },
-    draw: (pen, size, mixed) => {
-      const frame = toFrame(size, mixed);
+    draw: (pen, size, mixed, beside) => {
+      const frame = toFrame(size, mixed, beside);
       drawRings(pen, frame, scale);
       drawLobes(pen, frame, scale, mixed);
+      pen.context.setLineDash([...DASHES]);
+      if (beside.length) drawLobes(pen, frame, scale, beside, "");
+      pen.context.setLineDash([]);
       drawLight(pen, frame, thetaI);
     },
-    read: (x, y, size, mixed) => {
-      const frame = toFrame(size, mixed);
+    read: (x, y, size, mixed, beside) => {
+      const frame = toFrame(size, mixed, beside);
       if (y > frame.y0 + 4) return null;
       const i = Math.round(2 * (Math.atan2(x - frame.x0, frame.y0 - y) * (180 / Math.PI))) + 179;
       const angle = ANGLES[clamp(i, 0, ANGLES.length - 1)]!;
@@ -52,9 +66,10 @@ export function lobes(thetaIDegrees: number, scale: Scale): Plot {
 
 type Frame = ReturnType<typeof toFrame>;
 
-function toFrame({ width, height }: Size, mixed: Float64Array) {
-  const high = Math.max(...mixed, 1e-6);
-  const least = Math.min(...mixed.filter((value) => value > high / 10 ** DECADES), high / 10);
+function toFrame({ width, height }: Size, mixed: Float64Array, beside: Float64Array) {
+  const all = [...mixed, ...beside];
+  const high = Math.max(...all, 1e-6);
+  const least = Math.min(...all.filter((value) => value > high / 10 ** DECADES), high / 10);
   const low = 10 ** Math.floor(Math.log10(least));
   const reach = Math.min(width / 2 - 16, height - 30);
   return { x0: width / 2, y0: (height + reach) / 2 - 4, reach, low, high };
@@ -70,7 +85,7 @@ function toCanvas(
   return [x0 + r * Math.sin(angle), y0 - r * Math.cos(angle)];
 }
 
-function drawLobes(pen: Pen, frame: Frame, scale: Scale, mixed: Float64Array): void {
+function drawLobes(pen: Pen, frame: Frame, scale: Scale, mixed: Float64Array, filled = "33"): void {
   const { context, channels, blend } = pen;
   context.globalCompositeOperation = blend;
   context.lineWidth = 1.5;
@@ -80,9 +95,9 @@ function drawLobes(pen: Pen, frame: Frame, scale: Scale, mixed: Float64Array): v
       context.lineTo(...toCanvas(frame, scale, mixed[3 * i + c]!, angle));
     });
     context.closePath();
-    context.fillStyle = `${colour}33`;
+    context.fillStyle = `${colour}${filled}`;
     context.strokeStyle = colour;
-    context.fill();
+    if (filled) context.fill();
     context.stroke();
   });
   context.globalCompositeOperation = "source-over";

@@ -15,6 +15,8 @@ const PATIENCE = 24;
 /** Milliseconds between drawings: the picture of the material comes first. */
 const BESIDE = 60;
 
+const NOTHING = new Float64Array();
+
 type View = "lobes" | "slice" | "albedo";
 
 /** What a view can be told: an angle, named as it is written, up to `max`; and a scale. */
@@ -73,7 +75,7 @@ class BrdfPanel {
       this.pen = toPen(context, this.canvas);
       this.update();
     });
-    store.watch(["recipe", "arrived"], this.update);
+    store.watch(["recipe", "otherRecipe", "arrived"], this.update);
   }
 
   private viewChoice(controls: HTMLElement): HTMLElement {
@@ -140,30 +142,32 @@ class BrdfPanel {
 
   private draw(): void {
     const { store, tables } = this.context;
-    const { recipe } = store.get();
+    const { recipe, otherRecipe } = store.get();
     if (this.canvas.width === 0 || recipe.length === 0) return;
     const plot = this.plot();
-    const share = this.samples.make(plot, recipe, (name) => tables.get(name)?.table, PATIENCE);
+    const all = [...recipe, ...otherRecipe];
+    const share = this.samples.make(plot, all, (name) => tables.get(name)?.table, PATIENCE);
     if (share === 1) {
-      this.show(plot, this.samples.mix(plot, recipe));
+      const beside = otherRecipe.length ? this.samples.mix(plot, otherRecipe) : NOTHING;
+      this.show(plot, this.samples.mix(plot, recipe), beside);
       return;
     }
     // Until all is there the plot of before stays.
-    const missing = recipe.some(({ name }) => tables.get(name) === undefined);
+    const missing = all.some(({ name }) => tables.get(name) === undefined);
     this.reading.textContent = missing ? "loading tables" : `integrating, ${Math.round(100 * share)} %`;
     clearTimeout(this.timer);
     // Not at the pace of drawing: nothing is drawn before the last sample is there.
     if (!missing) this.timer = setTimeout(() => this.draw());
   }
 
-  private show(plot: Plot, mixed: Float64Array): void {
+  private show(plot: Plot, mixed: Float64Array, beside: Float64Array): void {
     const { pen, canvas, pointer } = this;
     const size = { width: canvas.clientWidth, height: canvas.clientHeight };
     const ratio = canvas.width / size.width;
     pen.context.setTransform(ratio, 0, 0, ratio, 0, 0);
     pen.context.clearRect(0, 0, size.width, size.height);
-    plot.draw(pen, size, mixed);
-    const reading = pointer && plot.read(pointer.x, pointer.y, size, mixed);
+    plot.draw(pen, size, mixed, beside);
+    const reading = pointer && plot.read(pointer.x, pointer.y, size, mixed, beside);
     if (reading) mark(pen, reading);
     this.reading.replaceChildren(...(reading ? describe(reading) : ["point at the plot for numbers"]));
   }

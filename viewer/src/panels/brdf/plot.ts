@@ -28,8 +28,15 @@ export interface Plot {
   /** The samples of a material are made in so many steps of some milliseconds. */
   readonly nSteps: number;
   readonly fill: (table: Table, samples: Float64Array, step: number) => void;
-  readonly draw: (pen: Pen, size: Size, mixed: Float64Array) => void;
-  readonly read: (x: number, y: number, size: Size, mixed: Float64Array) => Reading | null;
+  /** With the samples of what is compared, `beside`, over it in dashes where the plot has lines. */
+  readonly draw: (pen: Pen, size: Size, mixed: Float64Array, beside: Float64Array) => void;
+  readonly read: (
+    x: number,
+    y: number,
+    size: Size,
+    mixed: Float64Array,
+    beside: Float64Array,
+  ) => Reading | null;
 }
 
 export interface Pen {
@@ -42,6 +49,9 @@ export interface Pen {
   /** How colours that lie over each other add up to grey. */
   readonly blend: "multiply" | "screen";
 }
+
+/** Of the lines of what is compared. */
+export const DASHES: readonly number[] = [4, 3];
 
 export const SCALES = ["linear", "cube root", "log"] as const;
 export type Scale = (typeof SCALES)[number];

@@ -8,7 +8,7 @@ import { Painter } from "../../render/painter";
 import { type Needed, Quality, STILL } from "../../render/quality";
 import type { State } from "../../state";
 import { comingUp, shownNames } from "../../wanted";
-import { Lights } from "./lights";
+import { sayWhenLost } from "../notices";
 
 const N_AHEAD = 12;
 const SAMPLES_AHEAD = 4;
@@ -29,7 +29,6 @@ export interface Progress {
 export class LivePicture {
   private readonly painter: Painter;
   private readonly quality = new Quality();
-  private readonly lights: Lights;
   /** What was shown before, on top of the canvas until the new picture has come. */
   private readonly cover = el("canvas.view.hold", { "aria-hidden": "true", hidden: true });
   private readonly next = paced(() => this.frame());
@@ -46,9 +45,12 @@ export class LivePicture {
     private readonly canvas: HTMLCanvasElement,
     private readonly report: (progress: Progress) => void,
   ) {
-    const { store, tables, environment, signal } = context;
+    const { store, actions, tables, lights, signal } = context;
     this.painter = new Painter(canvas, tables, store.get().library.lights);
-    this.lights = new Lights(environment, (problem) => (problem ? store.set({ problem }) : this.look()));
+    lights.onChange = (problem) => {
+      actions.say("material", "light", problem);
+      if (problem === null) this.look();
+    };
     canvas.after(this.cover);
     signal.addEventListener("abort", () => {
       clearTimeout(this.timer);
@@ -63,7 +65,7 @@ export class LivePicture {
     store.watch(["arrived"], this.next);
     tables.onProgress = this.next;
     // All pictures went with the context, and begin again.
-    canvas.addEventListener("webglcontextrestored", () => this.look());
+    sayWhenLost(context, "material", canvas, () => this.look());
   }
 
   private resize(width: number, height: number): void {
@@ -77,7 +79,7 @@ export class LivePicture {
   private look(): void {
     const { painter, quality } = this;
     const state = this.context.store.get();
-    const chosen = this.lights.get(state.light);
+    const chosen = this.context.lights.get(state.light);
     if (chosen !== undefined && this.compile(chosen)) this.environment = chosen;
     if (this.environment === undefined || this.size.width === 0) return;
     const { shape, mesh } = state;

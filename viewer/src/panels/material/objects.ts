@@ -2,7 +2,8 @@
 
 import type { Context } from "../../context";
 import { el, segments } from "../../dom";
-import { MESH_FILES, readMesh } from "../../render/meshes";
+import { openFile } from "../../opening";
+import { MESH_FILES } from "../../render/meshes";
 import { HOME, type Shape } from "../../scene";
 
 const SHAPES: readonly (readonly [Shape, string])[] = [
@@ -33,7 +34,7 @@ function fileInput(context: Context): HTMLInputElement {
     const chosen = input.files?.[0];
     // The same file may be chosen again after it changed.
     input.value = "";
-    if (chosen) void open(context, chosen);
+    if (chosen) void openFile(context, chosen, "material");
   };
   const input = el("input", {
     type: "file",
@@ -43,31 +44,4 @@ function fileInput(context: Context): HTMLInputElement {
     onchange,
   });
   return input;
-}
-
-/** Meshes that are dropped on the panel. */
-export function openDropped(context: Context, panel: HTMLElement): void {
-  const isFile = (event: DragEvent) => event.dataTransfer?.types.includes("Files") ?? false;
-  panel.addEventListener("dragover", (event) => {
-    if (!isFile(event)) return;
-    event.preventDefault();
-    panel.classList.add("dropping");
-  });
-  panel.addEventListener("dragleave", () => panel.classList.remove("dropping"));
-  panel.addEventListener("drop", (event) => {
-    panel.classList.remove("dropping");
-    const file = event.dataTransfer?.files[0];
-    if (!file) return;
-    event.preventDefault();
-    void open(context, file);
-  });
-}
-
-async function open({ store }: Context, file: File): Promise<void> {
-  try {
-    const geometry = await readMesh(file);
-    store.set({ mesh: { name: file.name, geometry }, shape: "mesh", orbit: HOME, problem: null });
-  } catch (error) {
-    store.set({ problem: error instanceof Error ? error.message : String(error) });
-  }
 }

@@ -2,10 +2,13 @@
 
 import type { Context } from "../../context";
 import { dropdown, el, iconButton } from "../../dom";
+import { NoCardError } from "../../render/card";
 import { EXPOSURES, HOME, LIGHTS, type Light } from "../../scene";
+import { notices } from "../notices";
 import { LivePicture, type Progress } from "./live";
-import { openDropped, shapeChoice } from "./objects";
+import { shapeChoice } from "./objects";
 import { orbitOnDrag } from "./orbit";
+import { pictureButton } from "./picture";
 import { splitHandle } from "./split";
 import { stillPictures } from "./still";
 
@@ -17,26 +20,32 @@ export function materialPanel(context: Context): HTMLElement {
   });
   const note = el("span.note");
   const bar = el("i");
-  const panel = el(
+  const buttons = el(
+    "div.group",
+    note,
+    homeButton(context),
+    pictureButton(context, () => panel),
+  );
+  const area = el("div.area", canvas, splitHandle(context), el("div.progress", bar));
+  const panel: HTMLElement = el(
     "section.panel.material.stage",
     { "aria-label": "Material" },
-    canvas,
-    el("div.line.overlay.top", el("h2", "Material"), el("div.group", note, homeButton(context))),
+    el("div.line.bar", el("h2", "Material"), buttons),
+    area,
     el(
-      "div.line.wrap.overlay.bottom",
+      "div.line.wrap.bar.bottom",
       shapeChoice(context),
       el("div.line.wrap", lightChoice(context), exposure(context)),
     ),
-    splitHandle(context),
-    el("div.bar", bar),
+    notices(context, "material"),
   );
-  openDropped(context, panel);
   try {
     new LivePicture(context, canvas, (progress) => describe(progress, panel, note, bar));
     orbitOnDrag(context, canvas);
   } catch (error) {
+    if (!(error instanceof NoCardError)) throw error;
     canvas.hidden = true;
-    stillPictures(context, panel, error instanceof Error ? error.message : String(error));
+    stillPictures(context, panel, area, error.message);
   }
   return panel;
 }

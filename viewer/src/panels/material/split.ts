@@ -3,7 +3,7 @@
 import type { Context } from "../../context";
 import { el } from "../../dom";
 import { clamp } from "../../numbers";
-import { comparedStop } from "../../state";
+import { comparedKept, comparedStop } from "../../state";
 
 const STEP = 0.02;
 /** The line stays that far from the edges. */
@@ -32,10 +32,10 @@ export function splitHandle({ store }: Context): HTMLElement {
     },
   });
   handle.append(left, right);
-  store.watch(["space", "compare", "split"], ({ space, compare, split }) => {
+  store.watch(["space", "compare", "split", "held", "kept"], ({ space, compare, split, held, kept }) => {
     handle.hidden = compare === "";
-    left.textContent = space;
-    right.textContent = comparedStop(compare) ?? compare;
+    left.textContent = held?.name ?? space;
+    right.textContent = comparedKept({ compare, kept })?.name ?? comparedStop(compare) ?? compare;
     handle.style.left = `${100 * split}%`;
     handle.setAttribute("aria-valuenow", String(Math.round(100 * split)));
   });

@@ -4,6 +4,7 @@ import { fromHex, toHex } from "../../colour";
 import type { Context } from "../../context";
 import { coordinatesIn, pointOf, withCoordinates } from "../../coordinates";
 import { el } from "../../dom";
+import { isAway } from "../../state";
 
 const BODY = "Body colour";
 
@@ -21,12 +22,13 @@ export function bodyColour({ store, actions, names }: Context): HTMLElement {
   const leave = () => actions.setT(store.get().t);
   const back = el("button.button", { type: "button", onclick: leave }, "Back to route");
   const element = el("div.line.wrap.adjustment", label, note, back);
-  store.watch(["view", "recipe", "atPoint"], ({ view, recipe, atPoint }) => {
+  store.watch(["view", "recipe", "atPoint", "held"], ({ view, recipe, atPoint, held }) => {
     const has = !!view?.has_points && view.embeddings.some(({ name }) => name === BODY);
-    element.hidden = !has && atPoint === null;
+    const away = isAway({ atPoint, held });
+    element.hidden = !has && !away;
     label.hidden = !has;
     input.disabled = recipe.length === 0;
-    back.hidden = atPoint === null;
+    back.hidden = !away;
     note.textContent = atPoint === null || atPoint.inside ? "" : "no mix is just there: this is one nearby";
     if (!view || !has || recipe.length === 0 || input.matches(":focus")) return;
     const body = coordinatesIn(view, pointOf(view, names, recipe), BODY);

@@ -3,11 +3,12 @@
 import type { Context } from "../../context";
 import { el } from "../../dom";
 import { CHANNELS, type Ingredient, meanWeight } from "../../recipe";
+import { notices } from "../notices";
 import { bodyColour } from "./body";
 import { exports } from "./exports";
 
 export function recipePanel(context: Context): HTMLElement {
-  const list = el("ol");
+  const list = el("ol", { tabindex: 0, "aria-label": "Materials" });
   const note = el("p.note");
   const rows = new Map<string, HTMLLIElement>();
   context.store.watch(["recipe"], ({ recipe }) => {
@@ -30,6 +31,7 @@ export function recipePanel(context: Context): HTMLElement {
     list,
     bodyColour(context),
     exports(context),
+    notices(context, "recipe"),
   );
 }
 

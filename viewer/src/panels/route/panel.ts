@@ -2,29 +2,33 @@
 
 import type { Context } from "../../context";
 import { el, icon, iconButton } from "../../dom";
-import { asCompared, comparedStop } from "../../state";
+import { asCompared, asComparedKept, comparedStop } from "../../state";
+import { notices } from "../notices";
 import { stopList } from "./stops";
 import { strip } from "./strip";
 
 export function routePanel(context: Context): HTMLElement {
   const { store } = context;
-  const problem = el("p.problem", { role: "alert" });
-  store.watch(["problem"], ({ problem: text }) => {
-    problem.textContent = text;
-    problem.hidden = text === null;
-  });
   const value = el("b");
   store.watch(["t"], ({ t }) => {
     value.textContent = t.toFixed(3);
   });
   const beside = el("div.line.wrap.beside", compareChoice(context), el("span.t", "t = ", value));
-  return el(
+  const behind = el("p.tag.behind", { role: "status" });
+  const panel = el(
     "section.panel.route",
     { "aria-label": "Route" },
-    el("div.line.wrap", playButton(context), stopList(context), beside),
+    el("div.line.stopped", playButton(context), stopList(context), beside),
     strip(context),
-    problem,
+    behind,
+    notices(context, "route"),
   );
+  store.watch(["behind"], ({ behind: shown }) => {
+    behind.textContent = `still shown: ${shown}`;
+    behind.hidden = shown === null;
+    context.root.classList.toggle("outdated", shown !== null);
+  });
+  return panel;
 }
 
 function playButton({ store }: Context): HTMLElement {
@@ -49,10 +53,16 @@ function compareChoice({ store, actions }: Context): HTMLElement {
     el("optgroup", { label: "the same t in" }, ...spaces),
     materials,
   );
-  store.watch(["compare", "stops"], ({ compare, stops }) => {
+  const shortlist = el("optgroup", { label: "the shortlist" });
+  select.append(shortlist);
+  store.watch(["compare", "stops", "kept"], ({ compare, stops, kept }) => {
     const own = comparedStop(compare);
     const names = [...new Set([...stops, ...(own === null ? [] : [own])])];
     materials.replaceChildren(...names.map((name) => el("option", { value: asCompared(name) }, name)));
+    shortlist.replaceChildren(
+      ...kept.map((each) => el("option", { value: asComparedKept(each) }, each.name)),
+    );
+    shortlist.hidden = kept.length === 0;
     select.value = compare;
   });
   return el("label.line.choice", "compare with", select);

@@ -4,11 +4,13 @@
 import type { Context } from "../../context";
 import { el, onResize, style } from "../../dom";
 import { type Route, recipeAt } from "../../route";
-import { comparedSpace } from "../../state";
+import { comparedSpace, isAway } from "../../state";
 
-/** Of a row, in CSS pixels: a picture, and the ticks below it. */
-const SIDE = 58;
-const FOOT = 9;
+/** Of the strip, in CSS pixels, however many rows it has; and of the ticks below each. Its height is in the style sheet, too. */
+const HEIGHT = 68;
+const FOOT = 8;
+/** Of the slider's thumb: as wide as a picture where there is one row. */
+const THUMB = HEIGHT - FOOT;
 /** Room for a picture, as a share of its width. */
 const PITCH = 1.07;
 
@@ -23,13 +25,12 @@ export function strip(context: Context): HTMLElement {
     canvas.height = height;
     draw();
   });
-  store.watch(["route", "otherRoute", "scheme"], draw);
-  store.watch(["atPoint"], ({ atPoint }) => element.classList.toggle("away", atPoint !== null));
+  store.watch(["route", "otherRoute", "scheme", "pictured"], draw);
+  store.watch(["atPoint", "held"], (state) => element.classList.toggle("away", isAway(state)));
   store.watch(["space", "compare"], ({ space, compare }) => {
     const other = comparedSpace(compare);
     const rows = other === null ? [] : [space, other];
     names.replaceChildren(...rows.map((name) => el("span", name)));
-    element.style.height = `${(SIDE + FOOT) * Math.max(1, rows.length)}px`;
   });
   return element;
 }
@@ -52,7 +53,7 @@ function slider({ store, actions }: Context): HTMLElement[] {
   store.watch(["t"], ({ t }) => {
     input.value = String(t);
     // The middle of a range input's thumb stays half a thumb away from the ends.
-    playhead.style.left = `calc(${SIDE / 2}px + ${t} * (100% - ${SIDE}px))`;
+    playhead.style.left = `calc(${THUMB / 2}px + ${t} * (100% - ${THUMB}px))`;
   });
   return [input, playhead];
 }
@@ -65,31 +66,31 @@ function drawRows(context: Context, canvas: HTMLCanvasElement): void {
   pen.clearRect(0, 0, width, height);
   pen.imageSmoothingQuality = "high";
   const { route, otherRoute } = context.store.get();
-  [route, otherRoute].forEach((each, row) => {
-    if (each === null) return;
-    drawPictures(context, pen, each, width, row * (SIDE + FOOT));
-    drawTicks(context, pen, each, width, (row + 1) * (SIDE + FOOT));
+  const routes = [route, otherRoute].filter((each) => each !== null);
+  const high = HEIGHT / Math.max(routes.length, 1);
+  routes.forEach((each, row) => {
+    drawPictures(context, pen, each, { width, top: row * high, side: high - FOOT });
+    drawTicks(context, pen, each, width, (row + 1) * high);
   });
 }
 
 /** Where t is, from left to right. */
 function toX(t: number, width: number): number {
-  return SIDE / 2 + t * (width - SIDE);
+  return THUMB / 2 + t * (width - THUMB);
 }
 
 function drawPictures(
   { thumbnails }: Context,
   pen: CanvasRenderingContext2D,
   route: Route,
-  width: number,
-  top: number,
+  { width, top, side }: { readonly width: number; readonly top: number; readonly side: number },
 ): void {
   const cell = new OffscreenCanvas(thumbnails.size, thumbnails.size);
-  const last = Math.max(1, Math.floor((width - SIDE) / (SIDE * PITCH)));
+  const last = Math.max(1, Math.floor((width - THUMB) / (side * PITCH)));
   for (let i = 0; i <= last; i++) {
     const t = i / last;
     cell.getContext("2d")!.putImageData(thumbnails.picture(recipeAt(route, t)), 0, 0);
-    pen.drawImage(cell, toX(t, width) - SIDE / 2, top, SIDE, SIDE);
+    pen.drawImage(cell, toX(t, width) - side / 2, top, side, side);
   }
 }
 
@@ -105,7 +106,7 @@ function drawTicks(
     for (const t of ts) pen.fillRect(toX(t, width) - wide / 2, bottom - high, wide, high);
   };
   pen.fillStyle = style(root, "--line");
-  pen.fillRect(toX(0, width), bottom - 1, width - SIDE, 1);
+  pen.fillRect(toX(0, width), bottom - 1, width - THUMB, 1);
   ticks(crossings, 1, 4, "--quiet");
   ticks(stops, 2, 7, "--text");
 }

@@ -12,19 +12,64 @@ export interface Named {
   readonly isHovered: boolean;
 }
 
+/** Where the present material is, where a person asked for one, and whether it can be moved there. */
+interface Marks {
+  readonly here: Vector3 | null;
+  readonly asked: Vector3 | null;
+  readonly isFree: boolean;
+}
+
+const FREE = "The present material: drag it, or press arrows, to leave the route";
+/** CSS pixels that a key moves it. */
+const PRESSED = 8;
+const ARROWS: Readonly<Record<string, readonly [number, number]>> = {
+  ArrowLeft: [-1, 0],
+  ArrowRight: [1, 0],
+  ArrowUp: [0, -1],
+  ArrowDown: [0, 1],
+};
+
 export class Labels {
-  readonly element = el("div.labels", { "aria-hidden": "true" });
-  private readonly here = el("div.here");
+  readonly element: HTMLElement;
+  private readonly names = el("div.tags", { "aria-hidden": "true" });
+  private readonly ticks = el("div.tags", { "aria-hidden": "true" });
+  /** The present material: where it can be moved off the route, arrows do so. */
+  private readonly here: HTMLButtonElement;
   /** Where a person pointed, when no mix is there. */
   private readonly asked = el("div.asked");
 
-  draw(
-    cloud: Cloud,
-    width: number,
-    named: readonly Named[],
-    here: Vector3 | null,
-    asked: Vector3 | null,
-  ): void {
+  constructor(move: (x: number, y: number) => void) {
+    this.here = el("button.here", {
+      type: "button",
+      onkeydown: (event) => {
+        const arrow = ARROWS[event.key];
+        if (arrow === undefined || event.altKey || this.here.disabled) return;
+        event.preventDefault();
+        event.stopPropagation();
+        const box = this.here.getBoundingClientRect();
+        const own = this.element.getBoundingClientRect();
+        const step = event.shiftKey ? 5 * PRESSED : PRESSED;
+        move(
+          box.x + box.width / 2 - own.x + step * arrow[0],
+          box.y + box.height / 2 - own.y + step * arrow[1],
+        );
+      },
+    });
+    this.element = el("div.labels", this.ticks, this.names, this.asked, this.here);
+  }
+
+  /** Values along the axes of a map. */
+  drawTicks(cloud: Cloud, ticks: readonly { readonly text: string; readonly at: Vector3 }[]): void {
+    const marks = ticks.map(({ text, at }) => {
+      const { x, y } = cloud.project(at);
+      const element = el("span.tick", text);
+      element.style.transform = `translate(${x}px, ${y}px) translate(-50%, -50%)`;
+      return element;
+    });
+    this.ticks.replaceChildren(...marks);
+  }
+
+  draw(cloud: Cloud, width: number, named: readonly Named[], { here, asked, isFree }: Marks): void {
     const anchors = named.map(({ point }) => ({
       ...cloud.project(point),
       gap: cloud.radius(point) * 1.5 + 5,
@@ -35,15 +80,19 @@ export class Labels {
       label.style.transform = `translate(${x}px, ${y}px) translate(${side === "left" ? "-100%" : "0"}, -50%)`;
       return label;
     });
-    const marks = [here && mark(this.here, cloud, here), asked && mark(this.asked, cloud, asked)];
-    this.element.replaceChildren(...marks.filter((each) => each !== null), ...labels);
+    this.names.replaceChildren(...labels);
+    mark(this.here, cloud, here);
+    mark(this.asked, cloud, asked);
+    this.here.disabled = !isFree;
+    this.here.setAttribute("aria-label", isFree ? FREE : "The present material");
   }
 }
 
-function mark(element: HTMLElement, cloud: Cloud, point: Vector3): HTMLElement {
+function mark(element: HTMLElement, cloud: Cloud, point: Vector3 | null): void {
+  element.hidden = point === null;
+  if (point === null) return;
   const { x, y } = cloud.project(point);
   element.style.transform = `translate(${x}px, ${y}px) translate(-50%, -50%)`;
-  return element;
 }
 
 /** A point that has a name, in CSS pixels. */

@@ -8,11 +8,14 @@ import { el, onResize, segments, style } from "../../dom";
 import { paced } from "../../paced";
 import { weightIn } from "../../recipe";
 import { Appearance } from "../../render/appearance";
+import { NoCardError } from "../../render/card";
 import { Cloud } from "../../render/cloud";
 import { CoordinateMap } from "../../render/maps";
 import { recipeAt } from "../../route";
 import type { State } from "../../state";
+import { short } from "../brdf/plot";
 import { turnOnKeys } from "../material/orbit";
+import { notices, sayWhenLost } from "../notices";
 import { Labels } from "./labels";
 import { listenToPointer, type Pointer } from "./pointer";
 import { shelf } from "./shelf";
@@ -20,6 +23,8 @@ import { shelf } from "./shelf";
 const APPEARANCE = "Looks";
 /** Milliseconds between drawings: what moves is the material, and this stands beside it. */
 const BESIDE = 60;
+/** Values that are written along each axis: at its ends, for in the middle all axes meet. */
+const TICKS = 2;
 const ROUTE_POINTS = 160;
 /** How near the pointer has to be to take the present material, in CSS pixels. */
 const MARKER = 11;
@@ -30,29 +35,43 @@ export function spacePanel(context: Context): HTMLElement {
     role: "img",
     "aria-label": "The materials as points; Alt and an arrow turn them, and the search reaches them all",
   });
-  const panel = el("section.panel.space", { "aria-label": "Space" }, canvas);
-  let cloud: Cloud;
-  try {
-    cloud = new Cloud(canvas, context.names, context.thumbnails);
-  } catch {
-    canvas.hidden = true;
-    const reason = "The space itself needs WebGL2, which this browser does not have.";
-    const title = el("div.line.overlay.top", el("h2", "Space"));
-    panel.append(title, shelf(context), el("p.tag.reason", { role: "status" }, reason));
-    return panel;
-  }
-  panel.append(...new SpacePicture(context, cloud, canvas).overlays);
+  const maps = el("div.maps");
+  const area = el("div.area", canvas);
+  const note = el("span.note");
+  const title = el("div.line.bar", el("h2", "Space"), maps);
+  const foot = el("div.line.bar", note);
+  const panel = el(
+    "section.panel.space",
+    { "aria-label": "Space" },
+    title,
+    area,
+    foot,
+    notices(context, "space"),
+  );
+  let begun = false;
+  // The materials are drawn as their pictures.
+  context.store.watch(["pictured"], ({ pictured }) => {
+    if (!pictured || begun) return;
+    begun = true;
+    try {
+      const cloud = new Cloud(canvas, context.names, context.thumbnails);
+      area.append(new SpacePicture(context, cloud, canvas, { maps, note }).labels.element);
+    } catch (error) {
+      if (!(error instanceof NoCardError)) throw error;
+      canvas.hidden = true;
+      note.textContent = "The space itself needs WebGL2, which this browser does not have.";
+      area.append(shelf(context));
+    }
+  });
   return panel;
 }
 
 class SpacePicture {
-  readonly overlays: readonly HTMLElement[];
-  private readonly labels = new Labels();
-  private readonly note = el("span.note");
-  private readonly maps = el("div.maps");
+  readonly labels: Labels;
   private readonly appearance: Appearance;
   /** The name of the map that is chosen. */
   private chosen = APPEARANCE;
+  private axes: ReturnType<CoordinateMap["axes"]> = [];
   /** Where the present material is. */
   private here: Vector3 | null = null;
   /** Where a person pointed, when no mix is there. */
@@ -63,17 +82,14 @@ class SpacePicture {
     private readonly context: Context,
     private readonly cloud: Cloud,
     private readonly canvas: HTMLCanvasElement,
+    private readonly beside: { readonly maps: HTMLElement; readonly note: HTMLElement },
   ) {
     const { store, signal, names, thumbnails } = context;
     this.appearance = new Appearance(names, thumbnails);
-    this.overlays = [
-      this.labels.element,
-      el("div.line.overlay.top", el("h2", "Space"), this.maps),
-      el("div.line.overlay.bottom", this.note),
-    ];
+    this.labels = new Labels((x, y) => this.drag(x, y));
     signal.addEventListener("abort", () => cloud.dispose());
     cloud.controls.addEventListener("change", this.draw);
-    canvas.addEventListener("webglcontextrestored", this.draw);
+    sayWhenLost(context, "space", canvas, this.draw);
     turnOnKeys(canvas, (azimuth, elevation) => cloud.turn(azimuth, elevation));
     listenToPointer(canvas, this.pointer());
     onResize(canvas, (width, height, ratio) => {
@@ -107,7 +123,7 @@ class SpacePicture {
       },
     );
     mark(this.chosen);
-    this.maps.replaceChildren(element);
+    this.beside.maps.replaceChildren(element);
     this.arrange();
   }
 
@@ -115,6 +131,10 @@ class SpacePicture {
     const { embedding } = this;
     const map = embedding ? new CoordinateMap(embedding, this.context.names) : this.appearance;
     this.cloud.arrange(map, embedding?.edges ?? []);
+    this.axes = map instanceof CoordinateMap ? map.axes(TICKS) : [];
+    this.cloud.setAxes(
+      this.axes.flatMap(({ ticks }) => ticks.slice(1).map(({ at }, i) => [ticks[i]!.at, at] as const)),
+    );
     this.traceRoute();
     this.putRecipe();
     this.describe();
@@ -124,8 +144,11 @@ class SpacePicture {
     const { atPoint } = this.context.store.get();
     const axes = this.embedding?.axes;
     if (atPoint !== null && !atPoint.inside)
-      this.note.textContent = "no mix is at the ring: the dot is one nearby";
-    else this.note.textContent = axes ? `${axes.join(", ")}; quantile scales` : "close together: look alike";
+      this.beside.note.textContent = "no mix is at the ring: the dot is one nearby";
+    else
+      this.beside.note.textContent = axes
+        ? `${axes.map(inWords).join(", ")}; spread evenly along each`
+        : "close together: look alike";
   }
 
   private traceRoute(): void {
@@ -193,7 +216,17 @@ class SpacePicture {
       point: map.points[this.context.names.indexOf(name)]!,
       isHovered: name === hovered,
     }));
-    this.labels.draw(this.cloud, this.canvas.clientWidth, named, this.here, this.asked);
+    const { cloud, here, asked } = this;
+    this.labels.draw(cloud, this.canvas.clientWidth, named, { here, asked, isFree: this.isFree });
+    this.labels.drawTicks(
+      cloud,
+      this.axes.flatMap(({ name, ticks }) =>
+        ticks.map(({ value, at }, i) => ({
+          text: i === ticks.length - 1 ? `${inWords(name)} ${short(value)}` : short(value),
+          at,
+        })),
+      ),
+    );
   }
 
   private pointer(): Pointer {
@@ -224,9 +257,14 @@ class SpacePicture {
   /** Whether the pointer is at the present material, which can be dragged. */
   private isAtMarker(x: number, y: number): boolean {
     const { cloud, here } = this;
-    if (here === null || !(cloud.map instanceof CoordinateMap)) return false;
+    if (here === null || !this.isFree) return false;
     const at = cloud.project(here);
-    return !!this.context.store.get().view?.has_points && Math.hypot(at.x - x, at.y - y) <= MARKER;
+    return Math.hypot(at.x - x, at.y - y) <= MARKER;
+  }
+
+  /** Whether the present material can leave the route on this map. */
+  private get isFree(): boolean {
+    return this.cloud.map instanceof CoordinateMap && !!this.context.store.get().view?.has_points;
   }
 
   private drag(x: number, y: number): void {
@@ -237,6 +275,13 @@ class SpacePicture {
     const coordinates = map.coordinatesAt(this.cloud.unproject(x, y, this.here));
     actions.goTo(withCoordinates(view, point ?? pointOf(view, names, recipe), this.chosen, coordinates));
   }
+}
+
+/** What an axis is called on the page. */
+function inWords(axis: string): string {
+  const body = /^body.([rgb])$/.exec(axis);
+  if (body) return `body ${{ r: "red", g: "green", b: "blue" }[body[1] as "r" | "g" | "b"]}`;
+  return axis;
 }
 
 /** Each two of them. */

@@ -1,0 +1,74 @@
+import { expect, test } from "vitest";
+
+import type { LibrarySummary } from "../src/api/schema";
+import { toCommand } from "../src/command";
+import { fromText, keptOf, missingIn, toText } from "../src/shortlist";
+import { materialName } from "../src/title";
+
+const LIBRARY = {
+  name: "lab",
+  address: "my files/lab.brdflib",
+  materials: ["a", "b", "c"].map((name) => ({ name })),
+} as unknown as LibrarySummary;
+const ON_ROUTE = {
+  library: LIBRARY,
+  space: "paper",
+  pace: "uniform",
+  stops: ["a", "b"],
+  t: 0.25,
+  point: null,
+  atPoint: null,
+  held: null,
+  recipe: [
+    { name: "a", weight: [0.75, 0.75, 0.75] },
+    { name: "b", weight: [0.25, 0.25, 0.25] },
+  ],
+  shape: "sphere",
+  mesh: null,
+  light: "studio",
+  exposure: 0,
+} as const;
+
+test("a place on a route is made by route and render", () => {
+  expect(toCommand(ON_ROUTE)).toBe(
+    "halfway route 'my files/lab.brdflib' a b --space paper --pace uniform --t 0.25 -o a-to-b-0.250" +
+      " && halfway render a-to-b-0.250 --scene spheres --env studio -o a-to-b-0.250.png",
+  );
+});
+
+test("a free point is made by mix, under the name of what it is mostly made of", () => {
+  const atPoint = { recipe: { library: "lab", weights: {} }, point: [1, -2], inside: true };
+  const free = { ...ON_ROUTE, point: [1, -2], atPoint, shape: "teapot" } as const;
+  expect(toCommand(free)).toBe(
+    "halfway mix 'my files/lab.brdflib' --point=1,-2 --space paper --clamp -o a-75-b-25.binary" +
+      " && halfway render a-75-b-25.binary --scene teapot -o a-75-b-25.png",
+  );
+});
+
+test("one material alone is called by its name", () => {
+  expect(materialName({ ...ON_ROUTE, recipe: [{ name: "b", weight: [1, 1, 1] }] })).toBe("b");
+});
+
+test("a shortlist comes back from its file as it was", () => {
+  const recipe = { library: "lab", weights: { a: 0.5, b: 0.5 } };
+  const kept = [keptOf("mine", recipe, "#t=0.5", "for the lid")];
+  const [again] = fromText(toText("lab", kept), "shortlist.json", LIBRARY);
+  expect({ ...again, id: "" }).toEqual({ ...kept[0], id: "" });
+});
+
+test.each([
+  ["{", "no JSON"],
+  ["3", "has no weights"],
+  ['{"library": "other", "weights": {"a": 1}}', "of the library other, and this is lab"],
+  ['{"library": "lab", "blend": "lobes", "weights": {"a": 1}}', "blends by lobes"],
+  ['{"library": "lab", "weights": {"zz": 1}}', "needs zz"],
+])("a file that is no recipe of this library is refused: %s", (text, said) => {
+  expect(() => fromText(text, "x.json", LIBRARY)).toThrow(said);
+});
+
+test("what a shortlist needs and the library has not is kept, and said", () => {
+  const recipe = { library: "lab", weights: { a: 0.5, scan: 0.5 } };
+  const text = toText("lab", [keptOf("mine", recipe, "")]);
+  const [kept] = fromText(text, "shortlist.json", LIBRARY);
+  expect(missingIn(kept!.recipe, ["a", "b", "c"])).toEqual(["scan"]);
+});
