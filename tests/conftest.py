@@ -11,7 +11,7 @@ from jaxtyping import install_import_hook
 
 SOURCE = Path(__file__).parents[1] / "src"
 # Compiled code has types of its own; a class of the renderer is made by it.
-UNCHECKED = ("halfway.recipes.kernel", "halfway._ciede2000", "halfway.render.bsdf")
+UNCHECKED = ("halfway.recipes.kernel", "halfway.render.bsdf")
 MODULES = [
     ".".join(path.relative_to(SOURCE).with_suffix("").parts) for path in SOURCE.rglob("*.py")
 ]

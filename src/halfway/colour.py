@@ -9,6 +9,8 @@ from string import hexdigits
 import numpy as np
 from jaxtyping import Float
 
+from ._ciede2000 import differences
+
 Rgb = Float[np.ndarray, "... 3"]
 """Linear sRGB; 1 is the display's white."""
 Lab = Float[np.ndarray, "... 3"]
@@ -73,10 +75,6 @@ def to_lab(rgb: Rgb) -> Lab:
 
 def ciede2000(a: Lab, b: Lab) -> Float[np.ndarray, "..."]:
     """Delta E_00 of pairs of colours, with kL = kC = kH = 1."""
-    from ._ciede2000 import differences  # numba takes a second to load
-
     a, b = np.broadcast_arrays(a, b)
-    out = np.empty(a.shape[:-1])
-    first, second = (np.ascontiguousarray(x).reshape(-1, 3) for x in (a, b))
-    differences(first, second, out.reshape(-1))
-    return out
+    first, second = (np.asarray(x, np.float64).reshape(-1, 3) for x in (a, b))
+    return differences(first, second).reshape(a.shape[:-1])

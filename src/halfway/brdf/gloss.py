@@ -29,7 +29,7 @@ from jaxtyping import Float32, Float64, Int
 from .._types import Table
 from ..halfdiff import Axis, Grid
 
-FAINT, CLEAR = 0.2, 0.5
+FAINT, CLEAR = 0.1, 0.4
 """Shares of the value in the mirror direction up to which a lobe is body, and from which it is gloss."""
 STEEP_DEGREES = 60.0
 """The width is read where theta_d is smaller: beyond, shadowing and edges of the measurement bend the lobe."""
@@ -45,9 +45,7 @@ class Gloss(NamedTuple):
     gloss: Lobes
     """1/sr; unmeasured cells have what their neighbour nearer to the normal has."""
     width: float
-    """Of the highlight, as a slope; 1 where there is none."""
-    energy: float
-    """Of the gloss, summed over the channels, in no unit: how much there is of it beside another's."""
+    """Of the lobe, as a slope, highlight or not; 1 where the table is flat."""
 
     @classmethod
     def of(cls, values: Table, grid: Grid) -> "Gloss":
@@ -58,11 +56,11 @@ class Gloss(NamedTuple):
         gloss = lowest - lowest[:, -1:]
         steepness = _steepness(grid)
         profile = (gloss.sum(axis=0) @ steepness).astype(np.float64)
-        width, energy = _width(profile, grid)
+        width = _width(profile, grid)
         peak = float(lowest[:, 0].sum(axis=0) @ steepness)
         share = np.clip((profile[0] / (peak or 1.0) - FAINT) / (CLEAR - FAINT), 0, 1)
         gloss *= np.float32(share)
-        return cls(np.maximum(lobes - gloss, 0), gloss, width, energy * float(share))
+        return cls(np.maximum(lobes - gloss, 0), gloss, width)
 
 
 class Stretch(NamedTuple):
@@ -115,13 +113,12 @@ def _steepness(grid: Grid) -> Float32[np.ndarray, " n"]:
     return np.ascontiguousarray(to_lobes(whole, grid)[0, 0])
 
 
-def _width(profile: Float64[np.ndarray, " n_theta_h"], grid: Grid) -> tuple[float, float]:
-    """The geometric mean of the slopes of a lobe, and its energy."""
+def _width(profile: Float64[np.ndarray, " n_theta_h"], grid: Grid) -> float:
+    """The geometric mean of the slopes of a lobe."""
     axis = _theta_h(grid)
     theta, step = axis.centres(), np.diff(axis.edges())
     slopes = np.tan(theta)
     weight = (profile * np.cos(theta) ** 4) ** 2 * slopes / np.cos(theta) ** 2 * step
-    energy = float((profile * np.sin(theta) * np.cos(theta) * step).sum())
     if not weight.sum() > 0:
-        return 1.0, 0.0
-    return float(np.exp((weight * np.log(slopes)).sum() / weight.sum())), energy
+        return 1.0
+    return float(np.exp((weight * np.log(slopes)).sum() / weight.sum()))

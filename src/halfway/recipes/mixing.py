@@ -5,9 +5,8 @@
 A cell is unmeasured in the mix where it is unmeasured in any ingredient. The weights are those of a recipe, none
 negative: a mix of sound materials is sound. The truncated PCA is something else: `Pca.reconstruct`.
 
-Where a blend aligns, each ingredient's gloss is first stretched to one width (`halfway.brdf.gloss`), the geometric mean of
-their widths, each weighted by its weight and the fourth root of the energy of its gloss: a material without a highlight has no say
-in how wide it is. A stretched gloss can reflect more than it did from some direction. So where the mix would reflect more
+Where a blend aligns, each ingredient's gloss is first stretched to one width (`halfway.brdf.gloss`), the weighted geometric
+mean of their widths, so that a highlight narrows by equal factors for equal weights. A stretched gloss can reflect more than it did from some direction. So where the mix would reflect more
 than 1, and more than any of its ingredients does from there, the channel is scaled down to that.
 """
 
@@ -181,10 +180,7 @@ def mean_of(
 
 
 def _mean_width(parts: Sequence[gloss.Gloss], weights: Float64[np.ndarray, "3 n"]) -> float:
-    shares = weights.mean(axis=0) * np.array([part.energy for part in parts]) ** 0.25
-    if not shares.any():
-        return 1.0
-    return float(np.exp(shares @ np.log([part.width for part in parts]) / shares.sum()))
+    return float(np.exp(weights.mean(axis=0) @ np.log([part.width for part in parts])))
 
 
 def _aligns(recipe: Recipe) -> bool:
