@@ -3,6 +3,8 @@
 import json
 import os
 import shutil
+from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pytest
@@ -13,7 +15,8 @@ from halfway import HalfDiff, PaperSpace, Pca, Recipe, Route, from_half_diff
 from halfway.export import write_route
 from halfway.formats import read_merl, write_merl
 from halfway.formats.merl import SCALES
-from halfway.recipes import Mixer
+from halfway.recipes import Blend, Mixer
+from halfway.recipes.mixing import N_AT_ONCE
 
 STOPS = ["cherry-235", "tungsten-carbide"]
 
@@ -81,6 +84,33 @@ def bench_mix(figures, library, recipe):
     figures.note(what, "numpy, float64 / ours", ratio(seconds, 1, 0), note=note)
     figures.note(what, "numpy.einsum, float32 / ours", ratio(seconds, 2, 0))
     figures.note(what, "ours / copying as many bytes", ratio(seconds, 0, 3), goal="<= 1.5")
+
+
+def bench_blends(figures, library, recipe, tmp_path):
+    """Every blend of the same four materials, and the slowest into a file."""
+    mixer, path = Mixer(library), tmp_path / "mix.binary"
+    recipes = [replace(recipe, blend=blend) for blend in Blend]
+    for _ in range(N_AT_ONCE + 1):
+        mixer.mix(recipe)  # compiled from now on
+    seconds = race(*(partial(mixer.mix, each) for each in recipes), rounds=9)
+    for i, blend in enumerate(Blend):
+        note = f"{1e3 * np.median(seconds[:, i]):.0f} ms"
+        if blend is not Blend.LINEAR:
+            figures.note(
+                f"mix of 4 materials, {blend}",
+                "ours / linear",
+                ratio(seconds, i, 0),
+                goal="<= 6",
+                note=note,
+            )
+
+    def into_a_file(each):
+        write_merl(path, mixer.mix(each))
+
+    pair = [replace(recipe, blend=blend) for blend in (Blend.LOBES, Blend.LINEAR)]
+    seconds = race(*(partial(into_a_file, each) for each in pair), rounds=9, after=path.unlink)
+    what = "mix of 4 materials into a MERL file, lobes"
+    figures.note(what, "ours / linear", ratio(seconds, 0, 1), goal="<= 1.5")
 
 
 def onto_disk(folder):

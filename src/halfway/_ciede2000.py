@@ -71,7 +71,8 @@ def _mean_hue(p: Hues, c1: Numbers, q: Hues, c2: Numbers) -> Hues:
 
 
 def _hue_difference(p: Hues, q: Hues, product: Numbers) -> Numbers:
-    along, across = np.real(np.conj(p) * q), np.imag(np.conj(p) * q)
+    a1, b1, a2, b2 = np.real(p), np.imag(p), np.real(q), np.imag(q)
+    along, across = a1 * a2 + b1 * b2, a1 * b2 - b1 * a2
     small = np.abs(across) / np.sqrt(2 * np.where(along > 0, product + along, 1))
     large = np.sqrt(np.maximum(product - along, 0) / 2)
     return 2 * np.copysign(np.where(along > 0, small, large), across)

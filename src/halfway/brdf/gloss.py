@@ -67,8 +67,10 @@ class Stretch(NamedTuple):
     """A gloss made wider or narrower: where each of its rows comes from, and how its values change."""
 
     lower: Int[np.ndarray, " n_theta_h"]
-    fraction: Float32[np.ndarray, "n_theta_h 1"]
-    factor: Float32[np.ndarray, "n_theta_h 1"]
+    near: Float32[np.ndarray, "n_theta_h 1"]
+    """What the row ``lower`` counts."""
+    far: Float32[np.ndarray, "n_theta_h 1"]
+    """What the row after it counts."""
 
     @classmethod
     def by(cls, scale: float, grid: Grid) -> "Stretch":
@@ -80,17 +82,18 @@ class Stretch(NamedTuple):
         lower = np.clip(np.floor(position), 0, max(axis.size - 2, 0)).astype(np.intp)
         fraction = np.clip(position - lower, 0, 1)
         factor = (np.cos(source) / np.cos(theta)) ** 4 / scale**2
-        return cls(lower, *(x.astype(np.float32)[:, None] for x in (fraction, factor)))
+        shares = (1 - fraction) * factor, fraction * factor
+        return cls(lower, *(share.astype(np.float32)[:, None] for share in shares))
 
     def rows(
         self, gloss: Float32[np.ndarray, "n_theta_h n"], part: slice
     ) -> Float32[np.ndarray, "n_rows n"]:
         """Some rows of a gloss, stretched."""
-        lower, fraction = self.lower[part], self.fraction[part]
-        upper = np.minimum(lower + 1, len(gloss) - 1)
-        stretched = gloss[lower] * (1 - fraction)
-        stretched += gloss[upper] * fraction
-        stretched *= self.factor[part]
+        lower = self.lower[part]
+        stretched, upper = gloss[lower], gloss[np.minimum(lower + 1, len(gloss) - 1)]
+        stretched *= self.near[part]
+        upper *= self.far[part]
+        stretched += upper
         return stretched
 
 

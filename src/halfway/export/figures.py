@@ -107,7 +107,7 @@ def spaces(measured: Sequence[Mapping[str, Any]], label: str) -> "Figure":
                 for values in (detour, realism)
             )
             ax.plot(x, y, "-", lw=1, alpha=0.5, color="#555")
-            ax.plot(x[:1], y[:1], "o", label=found["space"])
+            ax.plot(x[:1], y[:1], "o", label=f"{found['space']}, {found['blend']}")
         ax.set(
             xscale="log",
             xlabel="detour (median, to the 90th percentile)",

@@ -121,16 +121,21 @@ def _table_lines(rows: Sequence[TableRow]) -> list[str]:
 
 
 def _space_lines(spaces: Sequence[Mapping[str, Any]]) -> list[str]:
-    head = "space     detour: median  90 %   max  jump, perceptual: max  judged  hue strays  realism  others  left out"
+    head = "space, blend      detour: median  90 %   max  jump, perceptual: max  judged  hue strays  realism  others  left out: log  seen"
     return [head, *map(_space_line, spaces)] if spaces else []
 
 
 def _space_line(space: Mapping[str, Any]) -> str:
     detour, left = space["detour"], space.get("leave_one_out")
+    name = f"{space['space']}, {space['blend']}"
     return (
-        f"{space['space']:9} {detour['median']:14.3f} {detour['90th percentile']:5.2f} {detour['max']:5.2f} "
+        f"{name:17} {detour['median']:14.3f} {detour['90th percentile']:5.2f} {detour['max']:5.2f} "
         f"{space['jump']['perceptual']['max']:22.3f} {space['judged_jump']['perceptual']['max']:7.3f} "
         f"{space['hue_excursion']['median']:11.2f} {space['realism']['log by cell']['median']:8.4f} "
         f"{space['others']['median']:7.2f} "
-        + (f"{left['log']['mean']:9.4f}" if left else "        -")
+        + (
+            f"{left['log']['mean']:14.4f} {left['seen']['mean']:5.2f}"
+            if left
+            else "             -     -"
+        )
     )

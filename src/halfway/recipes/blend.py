@@ -1,6 +1,5 @@
 """How the weighted materials of a recipe become one."""
 
-from collections.abc import Callable
 from enum import StrEnum
 from typing import NamedTuple
 
@@ -13,8 +12,8 @@ class Mapping(NamedTuple):
     """A function of BRDF values in which weighted sums are taken: increasing, concave, 0 at 0."""
 
     name: str
-    to: Callable[[np.ndarray], np.ndarray]
-    back: Callable[[np.ndarray], np.ndarray]
+    to: np.ufunc
+    back: np.ufunc
     unit: str
     """Of mapped values."""
 
@@ -55,7 +54,7 @@ class Blend(StrEnum):
 
 _ROOT = Mapping("root", np.sqrt, np.square, "sr^-1/2")
 _MAPPINGS = {
-    Blend.LINEAR: Mapping("linear", np.asarray, np.asarray, "1/sr"),
+    Blend.LINEAR: Mapping("linear", np.positive, np.positive, "1/sr"),
     Blend.ROOT: _ROOT,
     Blend.LOG: Mapping("log", np.log1p, np.expm1, "log(1 + f sr)"),
     Blend.LOBES: _ROOT,

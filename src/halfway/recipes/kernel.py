@@ -37,3 +37,21 @@ def sum_eight(
     for i in range(len(out)):
         low = w0 * a[i] + w1 * b[i] + w2 * c[i] + w3 * d[i]
         out[i] = low + (w4 * e[i] + w5 * f[i] + w6 * g[i] + w7 * h[i])
+
+
+@compiled
+def add_stretched_roots(
+    total: np.ndarray,
+    body: np.ndarray,
+    gloss: np.ndarray,
+    lower: np.ndarray,
+    near: np.ndarray,
+    far: np.ndarray,
+    weight: np.float32,
+) -> None:
+    """``total += weight sqrt(body + near gloss[lower] + far gloss[lower + 1])``, row by row."""
+    for row in range(len(total)):
+        a, b = near[row, 0], far[row, 0]
+        low, high = gloss[lower[row]], gloss[min(lower[row] + 1, len(gloss) - 1)]
+        for i in range(total.shape[1]):
+            total[row, i] += weight * np.sqrt(body[row, i] + (a * low[i] + b * high[i]))

@@ -10,7 +10,7 @@ mean of their widths, so that a highlight narrows by equal factors for equal wei
 than 1, and more than any of its ingredients does from there, the channel is scaled down to that.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from functools import lru_cache, partial
 from threading import Lock
@@ -29,7 +29,7 @@ from .blend import Mapping as BlendMapping
 from .recipe import Recipe
 
 N_AT_ONCE = 8
-"""Linear mixes that numpy sums: compiled code is twice as fast, and takes a second to load."""
+"""Mixes that numpy sums: compiled code is twice as fast, and takes a second to load."""
 _CHUNK = 1 << 15  # samples summed at once: the sums stay in a core's cache
 _ALBEDO_ANGLES = np.radians([0.0, 20.0, 40.0, 60.0, 70.0, 80.0])
 """From which a mix of stretched highlights reflects no more than it may."""
@@ -85,7 +85,14 @@ class Mixer:
             parts = [self._parts(name) for name in recipe.names]
         grid = self._library.grid
         mapping = recipe.blend.mapping
-        values = aligned_mean([part.lobes for part in parts], recipe.weights, mapping, grid)
+        self._n_mixed += 1
+        values = aligned_mean(
+            [part.lobes for part in parts],
+            recipe.weights,
+            mapping,
+            grid,
+            compiled=self._n_mixed > N_AT_ONCE,
+        )
         table = TabularBrdf(values.reshape(3, *grid.shape), grid)
         limit = np.maximum(1, np.max([part.albedos for part in parts], axis=0))
         share = np.min(limit / np.maximum(albedos(table, _ALBEDO_ANGLES), limit), axis=0)
@@ -143,8 +150,11 @@ def aligned_mean(
     weights: Float64[np.ndarray, "3 n"],
     mapping: BlendMapping,
     grid: Grid,
+    *,
+    compiled: bool = False,
 ) -> Table:
     """The weighted mean of materials whose glosses are stretched to one width, shape (3, p) with theta_h first."""
+    add = _compiled_adding() if compiled and mapping.to is np.sqrt else _add_stretched
     width = _mean_width(parts, weights)
     stretches = [gloss.Stretch.by(width / part.width, grid) for part in parts]
     _, n_rows, n = parts[0].body.shape
@@ -154,13 +164,49 @@ def aligned_mean(
         used = np.flatnonzero(weights[channel]).tolist()
         for start in range(0, n_rows, step):
             part = slice(start, start + step)
-            total = np.zeros_like(values[channel, part])
+            total = values[channel, part]
+            total[:] = 0
             for i in used:
-                lobe = stretches[i].rows(parts[i].gloss[channel], part)
-                lobe += parts[i].body[channel, part]
-                total += mapping.to(lobe) * np.float32(weights[channel, i])
-            values[channel, part] = mapping.back(total)
+                body, lobe = parts[i].body[channel, part], parts[i].gloss[channel]
+                weight = np.float32(weights[channel, i])
+                add(total, body, lobe, stretches[i], part, mapping, weight)
+            mapping.back(total, out=total)
     return values.reshape(3, -1)
+
+
+def _add_stretched(
+    total: np.ndarray,
+    body: np.ndarray,
+    lobe: np.ndarray,
+    stretch: gloss.Stretch,
+    part: slice,
+    mapping: BlendMapping,
+    weight: np.float32,
+) -> None:
+    """Add some rows of one material, mapped and weighted, to a sum."""
+    stretched = stretch.rows(lobe, part)
+    stretched += body
+    mapping.to(stretched, out=stretched)
+    stretched *= weight
+    total += stretched
+
+
+def _compiled_adding() -> Callable[..., None]:
+    from .kernel import add_stretched_roots  # numba takes a second to load
+
+    def add(
+        total: np.ndarray,
+        body: np.ndarray,
+        lobe: np.ndarray,
+        stretch: gloss.Stretch,
+        part: slice,
+        mapping: BlendMapping,  # noqa: ARG001 (square roots)
+        weight: np.float32,
+    ) -> None:
+        lower, near, far = (each[part] for each in stretch)
+        add_stretched_roots(total, body, lobe, lower, near, far, weight)
+
+    return add
 
 
 def mean_of(
@@ -171,12 +217,16 @@ def mean_of(
     mapping: BlendMapping,
 ) -> None:
     """``out = m^-1(sum_i w_i m(row_i))``."""
+    mapped = np.empty(min(_CHUNK, len(out)), np.float32)
     for start in range(0, len(out), _CHUNK):
-        part = slice(start, start + _CHUNK)
-        total = np.zeros_like(out[part])
+        total = out[start : start + _CHUNK]
+        term = mapped[: len(total)]
+        total[:] = 0
         for row, weight in zip(rows, weights, strict=True):
-            total += mapping.to(row[part]) * np.float32(weight)
-        out[part] = mapping.back(total)
+            mapping.to(row[start : start + _CHUNK], out=term)
+            term *= np.float32(weight)
+            total += term
+        mapping.back(total, out=total)
 
 
 def _mean_width(parts: Sequence[gloss.Gloss], weights: Float64[np.ndarray, "3 n"]) -> float:
