@@ -11,7 +11,7 @@ from halfway import attributes, find, mix, reach, write_brdf
 from halfway.cli import main as halfway
 from halfway.control import Control, Range, Wishes
 from halfway.errors import ControlError, OutOfReachError
-from halfway.instruments import ATTRIBUTES, of_readings
+from halfway.instruments import ATTRIBUTES, of_readings, read_table
 from halfway.recipes import Blend, Recipe
 
 LIBRARY = library()
@@ -53,6 +53,28 @@ def test_a_recipe_has_what_is_asked_for(names: tuple[str, ...], seed: int):
         assert_allclose(has[name], asked[name], rtol=1e-6, atol=1e-9)
     assert_allclose(attributes(mix(LIBRARY, recipe))[names[0]], asked[names[0]], rtol=1e-4)
     assert (recipe.weights == recipe.weights[0]).all()
+
+
+@pytest.mark.parametrize("blend", [blend for blend in Blend if blend is not Blend.LINEAR])
+@pytest.mark.parametrize("seed", range(3))
+def test_another_blend_has_what_is_asked_for_to_what_is_close(blend: Blend, seed: int):
+    """What one of its own mixes has; read off the table of the recipe."""
+    rng = np.random.default_rng(seed)
+    names = rng.choice(LIBRARY.names, 3, replace=False).tolist()
+    weights = dict(zip(names, rng.dirichlet(np.full(3, 3.0)), strict=True))
+    of = attributes(mix(LIBRARY, Recipe.of(LIBRARY, weights, blend)))
+    wishes = Wishes.of({name: of[name] for name in ("gloss60", "albedo", "body")})
+    recipe = CONTROL.find(wishes, blend=blend)
+    assert recipe.blend is blend
+    assert wishes.missed(read_table(mix(LIBRARY, recipe))) <= 1
+
+
+def test_what_another_blend_does_not_have_is_refused_or_the_nearest_taken():
+    wishes = Wishes.of({"gloss60": 5000})
+    with pytest.raises(OutOfReachError, match=r"blend 'root'.*--clamp"):
+        CONTROL.find(wishes, blend=Blend.ROOT)
+    has = CONTROL.attributes(CONTROL.find(wishes, blend=Blend.ROOT, clamp=True))
+    assert has["gloss60"] > 0.9 * ends("gloss60").high
 
 
 def test_like_a_material_is_that_material():

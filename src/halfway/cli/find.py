@@ -42,6 +42,7 @@ def find(
     exactly: Exactly = [],  # noqa: B006 (typer copies it, here and below)
     at_most: AtMost = [],  # noqa: B006
     at_least: AtLeast = [],  # noqa: B006
+    blend: options.Blending = None,
     few: Few = False,
     clamp: Clamp = False,
     output: Output = None,
@@ -53,11 +54,12 @@ def find(
     \b
     halfway find --like cherry-235 --set gloss60=35 -o glossy.json
     halfway find merl.brdflib --set L=40 --set a=20 --set b=10 --at-most gloss60=5
+    halfway find --like teflon --set gloss60=20 --blend lobes -o shiny.json
     halfway find --like scan.binary --set "body=#7a3b1e" -o new.binary
     """
     from halfway.control import Control, Wishes
     from halfway.export import write_material, write_recipe
-    from halfway.recipes import NamedBrdf
+    from halfway.recipes import Blend, NamedBrdf
 
     from .arguments import ArgumentError, parse_targets
 
@@ -67,7 +69,9 @@ def find(
             "there is nothing to find: give --set, --at-most, --at-least or --like."
         )
     control = Control.of(lib, work=work())
-    recipe = control.find(wishes, like=like or None, few=few, clamp=clamp)
+    recipe = control.find(
+        wishes, like=like or None, blend=Blend(blend or Blend.LINEAR), few=few, clamp=clamp
+    )
     if output:
         with writing(output, force=force):
             if output.suffix == ".json":

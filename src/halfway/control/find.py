@@ -6,6 +6,7 @@ known of a library and answers at once; `find` and `reach` make it and ask it on
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -13,11 +14,13 @@ from jaxtyping import Float64
 
 from ..brdf import Brdf
 from ..errors import ControlError, OutOfReachError
-from ..instruments import Attribute, Readings, attribute, of_readings, table_of
+from ..instruments import Attribute, Readings, attribute, of_readings, of_table, table_of
 from ..library import Library, LibraryRef, open_library
-from ..recipes import Blend, Recipe, split_address
+from ..look import Looks
+from ..recipes import Blend, Recipe, mix, split_address
 from ..tasks import HERE, Work
 from .nearness import Nearness, numbers_of
+from .newton import Linearised
 from .programme import Goals, Weights, solve
 from .wishes import SIGNS, Wishes, row_of
 
@@ -47,6 +50,7 @@ class Control:
 
     library: Library
     readings: Readings
+    looks: Looks
     nearness: Nearness
 
     @classmethod
@@ -54,24 +58,35 @@ class Control:
         """What is known of ``library``: read off its tables once, and kept in the cache."""
         opened = open_library(library) if isinstance(library, str) else library
         readings = Readings.fit(opened, work=work)
-        return cls(opened, readings, Nearness.fit(opened, readings, work=work))
+        looks = Looks.fit(opened, work=work)
+        return cls(opened, readings, looks, Nearness.of(looks, readings))
 
     def find(
-        self, wishes: Wishes, *, like: Like = None, few: bool = False, clamp: bool = False
+        self,
+        wishes: Wishes,
+        *,
+        like: Like = None,
+        blend: Blend = Blend.LINEAR,
+        few: bool = False,
+        clamp: bool = False,
     ) -> Recipe:
         """The recipe that has what is wished for and is nearest to ``like``; see the function `find`."""
         differences = self.nearness.scaled(self._reference(like, wishes), held=wishes.held())
-        distance = np.abs(differences).sum(axis=1)
-        asked = wishes.goals(
-            self.readings.values, missed=MISSED * distance.max() if clamp else np.inf
-        )
-        near = Goals(differences.T, *np.ones((2, differences.shape[1])))
-        # Each goal takes a material more: the fewest are found where the mix itself is not compared.
-        goals = asked if few else Goals.join([near, asked])
-        weights = solve(SPREAD * distance, goals)
+        near = partial(_nearest, wishes, differences, few=few)
+        # Another blend may have what no linear mix has: it begins at the nearest of those.
+        weights = near(self.readings.values, clamp=clamp or blend is not Blend.LINEAR)
         if weights is None:
             raise OutOfReachError(self.out_of_reach(wishes))
-        return self._recipe(weights)
+        if blend is Blend.LINEAR:
+            return self._recipe(weights)
+        mixes = Linearised(self.library, self.looks, blend)
+        weights, missed = mixes.approach(wishes, weights, partial(near, clamp=True))
+        if missed > 1 and not clamp:
+            raise OutOfReachError(
+                f"no mix by the blend {str(blend)!r} near to the linear one has {wishes}: the nearest that was found is "
+                f"{missed:.3g} times too far off. Ask for less, take --blend linear, or this one with --clamp."
+            )
+        return mixes.recipe(weights)
 
     def reach(self, name: str, wishes: Wishes) -> Range | None:
         """From the least to the most of an attribute where ``wishes`` hold; None where no mix has those."""
@@ -84,7 +99,9 @@ class Control:
         return Range(*(self._end(wanted, wishes, goals, start, sign) for sign in (-1, 1)))
 
     def attributes(self, recipe: Recipe) -> dict[str, Any]:
-        """The attributes of a recipe of the library, by name, without its table."""
+        """The attributes of a recipe of the library, by name; of a linear one without its table."""
+        if recipe.blend is not Blend.LINEAR:
+            return of_table(mix(self.library, recipe))
         weights = np.zeros((3, len(self.library)))
         weights[:, [self.library.index(name) for name in recipe.names]] = recipe.weights
         return of_readings(self.readings.mix(weights, recipe.blend))
@@ -171,6 +188,22 @@ class Control:
         return Recipe.from_dense(LibraryRef.of(self.library), self.library.names, dense)
 
 
+def _nearest(
+    wishes: Wishes,
+    differences: Float64[np.ndarray, "N d"],
+    readings: Float64[np.ndarray, "N n_instruments 3"],
+    *,
+    few: bool,
+    clamp: bool,
+) -> Weights | None:
+    """The weights of the nearest mix of materials with these readings, or where none has what is wished for None."""
+    distance = np.abs(differences).sum(axis=1)
+    asked = wishes.goals(readings, missed=MISSED * distance.max() if clamp else np.inf)
+    near = Goals(differences.T, *np.ones((2, differences.shape[1])))
+    # Each goal takes a material more: the fewest are found where the mix itself is not compared.
+    return solve(SPREAD * distance, asked if few else Goals.join([near, asked]))
+
+
 def find(
     library: Library | str,
     like: Like = None,
@@ -178,6 +211,7 @@ def find(
     set: Mapping[str, Any] | None = None,
     at_most: Mapping[str, Any] | None = None,
     at_least: Mapping[str, Any] | None = None,
+    blend: Blend | str = Blend.LINEAR,
     few: bool = False,
     clamp: bool = False,
     work: Work = HERE,
@@ -193,6 +227,9 @@ def find(
         has most of what is asked for.
     set, at_most, at_least : mapping
         Attributes by name, and their values: numbers, or a colour such as ``#7a2a3a`` for ``body``.
+    blend : Blend or str
+        How the recipe is mixed. Linear: what is asked for is met to rounding. Others: by some steps of Newton's method from
+        there, to `Attribute.close`.
     few : bool
         Of no more materials than there are numbers asked for, and one.
     clamp : bool
@@ -212,7 +249,8 @@ def find(
         raise ControlError(
             "there is nothing to find: expected an attribute, or what it shall be like."
         )
-    return Control.of(library, work=work).find(wishes, like=like, few=few, clamp=clamp)
+    control = Control.of(library, work=work)
+    return control.find(wishes, like=like, blend=Blend(blend), few=few, clamp=clamp)
 
 
 def reach(

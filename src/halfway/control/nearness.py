@@ -18,9 +18,7 @@ from jaxtyping import Float64
 
 from ..brdf import TabularBrdf
 from ..instruments import ATTRIBUTES, Readings, read_table
-from ..library import Library
 from ..look import PACING_SCENE, Looks, SphereOperator
-from ..tasks import HERE, Work
 
 N_PARTS = 6
 """Of the picture, along each side."""
@@ -41,9 +39,9 @@ class Nearness:
     """Of each number."""
 
     @classmethod
-    def fit(cls, library: Library, readings: Readings, *, work: Work = HERE) -> "Nearness":
-        """The numbers of ``library``, whose readings are known."""
-        points = _numbers(Looks.fit(library, work=work).images, readings.values)
+    def of(cls, looks: Looks, readings: Readings) -> "Nearness":
+        """The numbers of a library, by its pictures and readings."""
+        points = _numbers(looks.images, readings.values)
         n_picture = points.shape[1] - len(REFLECTIONS) - 3
         groups = np.repeat(GROUPS, [n_picture, len(REFLECTIONS), 3])
         return cls(points, tuple(groups.tolist()))
