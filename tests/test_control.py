@@ -6,12 +6,15 @@ import numpy as np
 import pytest
 from glossy import GRID, glossy, library
 from numpy.testing import assert_allclose
+from PIL import Image
 
 from halfway import attributes, find, mix, reach, write_brdf
 from halfway.cli import main as halfway
+from halfway.colour import to_hex
 from halfway.control import Control, Range, Wishes
 from halfway.errors import ControlError, OutOfReachError
 from halfway.instruments import ATTRIBUTES, of_readings, read_table
+from halfway.look import portrait, to_png
 from halfway.recipes import Blend, Recipe
 
 LIBRARY = library()
@@ -86,6 +89,31 @@ def test_like_a_file_that_is_one_of_the_materials_is_that_material(tmp_path):
     assert CONTROL.find(Wishes(), like=str(tmp_path / "scan.binary")).names == ("m5",)
 
 
+@pytest.mark.parametrize("exposure", [0.5, 0.8])
+def test_like_a_picture_of_a_material_is_that_material_at_any_exposure(tmp_path, exposure: float):
+    table = LIBRARY.brdf("m2")
+    picture = exposure * portrait(table.values, GRID)
+    (tmp_path / "sphere.png").write_bytes(to_png([picture.astype(np.float32)]))
+    recipe = CONTROL.find(Wishes(), like=str(tmp_path / "sphere.png"))
+    # 8 bits, and highlights that are white
+    assert recipe.weights[0, recipe.names.index("m2")] > 0.9
+
+
+def test_like_a_colour_is_the_mix_with_that_body():
+    body = values_of(random_weights(1)[0])["body"]
+    has = CONTROL.attributes(CONTROL.find(Wishes(), like=to_hex(body)))
+    assert_allclose(has["body"], body, atol=0.01)
+
+
+@pytest.mark.parametrize(
+    ("size", "told"), [((40, 30), "40 x 30 pixels: expected a square"), ((32, 32), "is black")]
+)
+def test_a_picture_of_no_sphere_is_refused(tmp_path, size: tuple[int, int], told: str):
+    Image.new("RGB", size).save(tmp_path / "none.png")
+    with pytest.raises(ControlError, match=told):
+        CONTROL.find(Wishes(), like=str(tmp_path / "none.png"))
+
+
 def test_what_is_not_asked_for_stays():
     """A change of gloss keeps the body colour where some mix does; a change of colour keeps the gloss."""
     own = attributes(LIBRARY.brdf("m0"))
@@ -93,6 +121,19 @@ def test_what_is_not_asked_for_stays():
     has = CONTROL.attributes(CONTROL.find(Wishes({"gloss60": target}), like="m0"))
     assert_allclose(has["body"], own["body"], rtol=1e-6)
     assert_allclose(has["gloss60"], target, rtol=1e-6)
+
+
+def test_what_is_given_up_is_told():
+    """Nothing of the material itself; of a far one at least what makes it another."""
+    wishes = Wishes.of({"albedo": 0.3})
+    own = CONTROL.find(Wishes(), like="m1")
+    assert CONTROL.given_up(own, wishes, "m1") == {}
+    shiny, matte = (
+        np.argmax(x * ATTRIBUTES["gloss60"].of(CONTROL.readings.values)) for x in (1, -1)
+    )
+    other = CONTROL.find(Wishes(), like=f"m{shiny}")
+    was, now = CONTROL.given_up(other, wishes, f"m{matte}")["gloss60"]
+    assert was < now
 
 
 def test_bounds_hold():

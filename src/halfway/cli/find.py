@@ -8,7 +8,7 @@ import typer
 
 from ..locations import DEFAULT_LIBRARY
 from . import options
-from .attributes import lines, to_json
+from .attributes import changes, lines, to_json
 from .completion import complete_names
 from .console import say, show, work
 from .outputs import writing
@@ -18,7 +18,7 @@ Like = Annotated[
     str,
     typer.Option(
         metavar="WHAT",
-        help="What it shall be like: a name, a file, a recipe.",
+        help="What it shall be like: a name, a file, a recipe, a colour, a picture of a sphere.",
         autocompletion=complete_names,
     ),
 ]
@@ -55,6 +55,7 @@ def find(
     halfway find --like cherry-235 --set gloss60=35 -o glossy.json
     halfway find merl.brdflib --set L=40 --set a=20 --set b=10 --at-most gloss60=5
     halfway find --like teflon --set gloss60=20 --blend lobes -o shiny.json
+    halfway find --like sphere.png -o seen.json                         in the light of halfway's own spheres
     halfway find --like scan.binary --set "body=#7a3b1e" -o new.binary
     """
     from halfway.control import Control, Wishes
@@ -78,6 +79,8 @@ def find(
                 write_recipe(output, control.library, recipe)
             else:
                 write_material(output, NamedBrdf.mixed(control.library, recipe, output.stem))
+    if lost := control.given_up(recipe, wishes, like):
+        say(f"no nearer mix keeps what {like} has: {changes(lost)}")
     read = control.attributes(recipe)
     if as_json:
         print(json.dumps({"format": 1, **recipe.to_json(), "attributes": to_json(read)}, indent=1))
