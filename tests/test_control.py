@@ -16,6 +16,7 @@ from halfway.errors import ControlError, OutOfReachError
 from halfway.instruments import ATTRIBUTES, of_readings, read_table
 from halfway.look import portrait, to_png
 from halfway.recipes import Blend, Recipe
+from halfway.space import along
 
 LIBRARY = library()
 CONTROL = Control.of(LIBRARY)
@@ -223,6 +224,17 @@ def test_wishes_that_make_no_sense_are_refused(asked: dict, told: str):
         find(LIBRARY, **asked)
 
 
+def test_a_route_along_an_attribute_has_every_value_on_the_way():
+    """At its knots, and between two of them by linear mixes."""
+    low, high = ends("gloss60")
+    start, stop = low + 0.2 * (high - low), low + 0.6 * (high - low)
+    way = along(LIBRARY, "m1", "gloss60", start, stop, n=3)
+    for t in (0.0, 0.3, 0.5, 1.0):
+        has = CONTROL.attributes(way.recipe(t))
+        assert_allclose(has["gloss60"], (1 - t) * start + t * stop, rtol=1e-6)
+    assert len(way.to_json(way.steps(5))["recipes"]) == 5
+
+
 def test_the_command_line_finds_and_tells(tmp_path, monkeypatch, capsys):
     """A recipe found, and its attributes read again."""
     names = ["dark", "matte", "shiny"]
@@ -256,6 +268,11 @@ def test_the_command_line_finds_and_tells(tmp_path, monkeypatch, capsys):
     run(monkeypatch, "attributes", "new.json", "--json")
     (read,) = json.loads(capsys.readouterr().out)
     assert read["attributes"]["gloss60"] == pytest.approx(4, rel=1e-4)
+    run(
+        monkeypatch, "route", "three.brdflib", "dark", "--along", "gloss60=2:3", "-n", "3", "--json"
+    )
+    route = json.loads(capsys.readouterr().out)
+    assert route["stops"] == ["gloss60=2", "gloss60=3"]
     run(monkeypatch, "attributes", "three.brdflib")
     assert [line.split()[-1] for line in capsys.readouterr().out.splitlines()] == [
         "material",
