@@ -18,16 +18,21 @@ from ..instruments import read_table
 from ..library import Library, LibraryRef
 from ..look import Looks
 from ..recipes import Blend, Mixer, Recipe
-from .programme import Weights
+from .programme import Goals, Weights, solve
 from .wishes import Wishes
 
 N_STEPS = 20
 ENOUGH = 0.5
 """A step more is not worth its time."""
-SHARES = 0.5 ** np.arange(7)
+SHARES = (1.0, 0.5, 0.25)
 """Of a step, which are tried in turn until one is an improvement."""
+MISSED = 1e3
+"""What a wish costs that is missed by the most that a material does, where another material altogether costs 2."""
 SMALL = 1e-3
 """Share of each material that is added to see what it changes."""
+
+
+Near = Callable[[Float64[np.ndarray, "N n_instruments 3"]], Weights | None]
 
 
 class Linearised:
@@ -40,30 +45,31 @@ class Linearised:
         self._names = looks.names
         self._blend = blend
 
-    def approach(
-        self,
-        wishes: Wishes,
-        weights: Weights,
-        near: Callable[[Float64[np.ndarray, "N n_instruments 3"]], Weights | None],
-    ) -> tuple[Weights, float]:
+    def approach(self, wishes: Wishes, weights: Weights, near: Near) -> tuple[Weights, float]:
         """Weights that have what is wished for, and how far off they are in `Wishes.missed`; from those of the linear mix.
 
-        ``near`` gives the nearest weights by the readings of the materials.
+        ``near`` gives the nearest weights by the readings of the materials. Steps go there as long as that helps, and then to
+        what is nearest to where they stand.
         """
         readings = self.readings(weights)
-        missed = wishes.missed(readings)
+        missed, free = wishes.missed(readings), True
         for _ in range(N_STEPS):
-            ahead = None if missed <= ENOUGH else near(self._about(weights, readings))
+            if missed <= ENOUGH:
+                break
+            about = self._about(weights, readings)
+            ahead = near(about) if free else _least_change(wishes, about, weights)
             if ahead is None:
                 break
             for share in SHARES:
                 there = (1 - share) * weights + share * ahead
                 readings_there = self.readings(there)
                 if (missed_there := wishes.missed(readings_there)) < missed:
+                    weights, readings, missed = there, readings_there, missed_there
                     break
             else:
-                break
-            weights, readings, missed = there, readings_there, missed_there
+                if not free:
+                    break
+                free = False
         return weights, missed
 
     def recipe(self, weights: Weights) -> Recipe:
@@ -89,3 +95,12 @@ class Linearised:
         values = self._tables.mix(dense, self._blend)[:, 0].reshape(3, *grid.shape)
         # Below the horizon a small table has the values of neighbours; a table has none.
         return read_table(TabularBrdf(np.where(grid.mask(), values, np.float32(np.nan)), grid))
+
+
+def _least_change(
+    wishes: Wishes, readings: Float64[np.ndarray, "N n_instruments 3"], weights: Weights
+) -> Weights | None:
+    """The weights that have what is wished for and differ least from others."""
+    n = len(weights)
+    stay = Goals(np.eye(n) - weights[:, None], np.ones(n), np.ones(n))
+    return solve(np.zeros(n), Goals.join([stay, wishes.goals(readings, missed=MISSED)]))
