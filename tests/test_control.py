@@ -147,9 +147,22 @@ def test_bounds_hold():
 
 
 def test_few_takes_no_more_materials_than_numbers_and_one():
-    of = values_of(random_weights(1)[0])
-    recipe = found("m1", set={"gloss60": of["gloss60"], "body": of["body"]}, few=True)
-    assert len(recipe.names) <= 5
+    """Where the nearest takes many: of what is like a mix of all."""
+    of_all = Recipe.of(LIBRARY, dict(zip(LIBRARY.names, random_weights(1)[0], strict=True)))
+    of = CONTROL.attributes(of_all)
+    wishes = Wishes.of({"gloss60": 1.1 * of["gloss60"]})
+    near, few = (CONTROL.find(wishes, like=mix(LIBRARY, of_all), few=few) for few in (False, True))
+    assert len(few.names) <= 2 < len(near.names)
+
+
+def test_what_is_held_counts_for_more_than_the_picture():
+    reference = CONTROL.nearness.points[0]
+    plain = CONTROL.nearness.scaled(reference, held=[])
+    held = CONTROL.nearness.scaled(reference, held=["colour"])
+    assert held.shape[1] == plain.shape[1] + 3
+    assert_allclose(held[:, :-3], plain)
+    body = (CONTROL.nearness.points - reference)[:, -3:]
+    assert_allclose(held[:, -3:], 4 / 3 * body / (reference[-3:] + 0.02) ** (2 / 3))
 
 
 @pytest.mark.parametrize("name", [n for n, a in ATTRIBUTES.items() if a.is_number and not a.needs])
