@@ -12,16 +12,16 @@ from halfway.brdf import fresnel
 from halfway.cli.arguments import parse_grid
 from halfway.control import Control, Wishes
 from halfway.halfdiff import Grid, cosines
-from halfway.instruments import ATTRIBUTES, of_readings
+from halfway.instruments import ATTRIBUTES, of_readings, read_table
 from halfway.instruments.functionals import INSTRUMENTS
 from halfway.library import Library, ProceduralLibrary, open_library
 from halfway.people import Perception
 from halfway.people.networks import networks
 from halfway.people.perceived import lightness, samples
-from halfway.recipes import Blend
+from halfway.recipes import Blend, Recipe, mix
 
 ASKED = ("gloss60", "albedo", "body")
-N_TRIPLES = 200
+N_TRIPLES, N_BLENDED = 200, 20
 ORDER = ("chrome", "specular-black-phenolic", "teflon", "white-fabric", "blue-fabric")
 
 
@@ -42,6 +42,7 @@ def main() -> None:
     print_gloss(control)
     print_mirrors()
     print_found(control)
+    print_blends(control)
     print_perceived(library)
 
 
@@ -92,6 +93,27 @@ def print_found(control: Control) -> None:
     print(
         f"a range where L* = 30: {1e3 * (time.perf_counter() - start) / len(names):.0f} ms in the mean"
     )
+
+
+def print_blends(control: Control) -> None:
+    """How near, in units of `Attribute.close`, and how soon what a blend's own mixes have is found."""
+    n = len(control.library)
+    for blend in (Blend.ROOT, Blend.LOG, Blend.LOBES):
+        rng, seconds, missed = np.random.default_rng(0), [], []
+        for _ in range(N_BLENDED):
+            weights = rng.dirichlet(np.ones(5))
+            names = [control.library.names[i] for i in rng.choice(n, 5, replace=False)]
+            parts = dict(zip(names, weights, strict=True))
+            of = control.attributes(Recipe.of(control.library, parts, blend))
+            wishes = Wishes.of({name: of[name] for name in ASKED})
+            start = time.perf_counter()
+            recipe = control.find(wishes, blend=blend, clamp=True)
+            seconds.append(time.perf_counter() - start)
+            missed.append(wishes.missed(read_table(mix(control.library, recipe))))
+        print(
+            f"{N_BLENDED} triples by {blend}: {sum(m <= 1 for m in missed)} found, the worst {max(missed):.2f} off, "
+            f"{np.median(seconds):.1f} s in the median, {max(seconds):.1f} s at most"
+        )
 
 
 def print_perceived(library: Library) -> None:

@@ -6,13 +6,17 @@ import numpy as np
 import pytest
 from glossy import GRID, glossy, library
 from numpy.testing import assert_allclose
+from PIL import Image
 
 from halfway import attributes, find, mix, reach, write_brdf
 from halfway.cli import main as halfway
+from halfway.colour import to_hex
 from halfway.control import Control, Range, Wishes
 from halfway.errors import ControlError, OutOfReachError
-from halfway.instruments import ATTRIBUTES, of_readings
+from halfway.instruments import ATTRIBUTES, of_readings, read_table
+from halfway.look import portrait, to_png
 from halfway.recipes import Blend, Recipe
+from halfway.space import along
 
 LIBRARY = library()
 CONTROL = Control.of(LIBRARY)
@@ -55,6 +59,28 @@ def test_a_recipe_has_what_is_asked_for(names: tuple[str, ...], seed: int):
     assert (recipe.weights == recipe.weights[0]).all()
 
 
+@pytest.mark.parametrize("blend", [blend for blend in Blend if blend is not Blend.LINEAR])
+@pytest.mark.parametrize("seed", range(3))
+def test_another_blend_has_what_is_asked_for_to_what_is_close(blend: Blend, seed: int):
+    """What one of its own mixes has; read off the table of the recipe."""
+    rng = np.random.default_rng(seed)
+    names = rng.choice(LIBRARY.names, 3, replace=False).tolist()
+    weights = dict(zip(names, rng.dirichlet(np.full(3, 3.0)), strict=True))
+    of = attributes(mix(LIBRARY, Recipe.of(LIBRARY, weights, blend)))
+    wishes = Wishes.of({name: of[name] for name in ("gloss60", "albedo", "body")})
+    recipe = CONTROL.find(wishes, blend=blend)
+    assert recipe.blend is blend
+    assert wishes.missed(read_table(mix(LIBRARY, recipe))) <= 1
+
+
+def test_what_another_blend_does_not_have_is_refused_or_the_nearest_taken():
+    wishes = Wishes.of({"gloss60": 5000})
+    with pytest.raises(OutOfReachError, match=r"blend 'root'.*--clamp"):
+        CONTROL.find(wishes, blend=Blend.ROOT)
+    has = CONTROL.attributes(CONTROL.find(wishes, blend=Blend.ROOT, clamp=True))
+    assert has["gloss60"] > 0.9 * ends("gloss60").high
+
+
 def test_like_a_material_is_that_material():
     assert CONTROL.find(Wishes(), like="m3").names == ("m3",)
 
@@ -64,6 +90,31 @@ def test_like_a_file_that_is_one_of_the_materials_is_that_material(tmp_path):
     assert CONTROL.find(Wishes(), like=str(tmp_path / "scan.binary")).names == ("m5",)
 
 
+@pytest.mark.parametrize("exposure", [0.5, 0.8])
+def test_like_a_picture_of_a_material_is_that_material_at_any_exposure(tmp_path, exposure: float):
+    table = LIBRARY.brdf("m2")
+    picture = exposure * portrait(table.values, GRID)
+    (tmp_path / "sphere.png").write_bytes(to_png([picture.astype(np.float32)]))
+    recipe = CONTROL.find(Wishes(), like=str(tmp_path / "sphere.png"))
+    # 8 bits, and highlights that are white
+    assert recipe.weights[0, recipe.names.index("m2")] > 0.9
+
+
+def test_like_a_colour_is_the_mix_with_that_body():
+    body = values_of(random_weights(1)[0])["body"]
+    has = CONTROL.attributes(CONTROL.find(Wishes(), like=to_hex(body)))
+    assert_allclose(has["body"], body, atol=0.01)
+
+
+@pytest.mark.parametrize(
+    ("size", "told"), [((40, 30), "40 x 30 pixels: expected a square"), ((32, 32), "is black")]
+)
+def test_a_picture_of_no_sphere_is_refused(tmp_path, size: tuple[int, int], told: str):
+    Image.new("RGB", size).save(tmp_path / "none.png")
+    with pytest.raises(ControlError, match=told):
+        CONTROL.find(Wishes(), like=str(tmp_path / "none.png"))
+
+
 def test_what_is_not_asked_for_stays():
     """A change of gloss keeps the body colour where some mix does; a change of colour keeps the gloss."""
     own = attributes(LIBRARY.brdf("m0"))
@@ -71,6 +122,19 @@ def test_what_is_not_asked_for_stays():
     has = CONTROL.attributes(CONTROL.find(Wishes({"gloss60": target}), like="m0"))
     assert_allclose(has["body"], own["body"], rtol=1e-6)
     assert_allclose(has["gloss60"], target, rtol=1e-6)
+
+
+def test_what_is_given_up_is_told():
+    """Nothing of the material itself; of a far one at least what makes it another."""
+    wishes = Wishes.of({"albedo": 0.3})
+    own = CONTROL.find(Wishes(), like="m1")
+    assert CONTROL.given_up(own, wishes, "m1") == {}
+    shiny, matte = (
+        np.argmax(x * ATTRIBUTES["gloss60"].of(CONTROL.readings.values)) for x in (1, -1)
+    )
+    other = CONTROL.find(Wishes(), like=f"m{shiny}")
+    was, now = CONTROL.given_up(other, wishes, f"m{matte}")["gloss60"]
+    assert was < now
 
 
 def test_bounds_hold():
@@ -83,9 +147,22 @@ def test_bounds_hold():
 
 
 def test_few_takes_no_more_materials_than_numbers_and_one():
-    of = values_of(random_weights(1)[0])
-    recipe = found("m1", set={"gloss60": of["gloss60"], "body": of["body"]}, few=True)
-    assert len(recipe.names) <= 5
+    """Where the nearest takes many: of what is like a mix of all."""
+    of_all = Recipe.of(LIBRARY, dict(zip(LIBRARY.names, random_weights(1)[0], strict=True)))
+    of = CONTROL.attributes(of_all)
+    wishes = Wishes.of({"gloss60": 1.1 * of["gloss60"]})
+    near, few = (CONTROL.find(wishes, like=mix(LIBRARY, of_all), few=few) for few in (False, True))
+    assert len(few.names) <= 2 < len(near.names)
+
+
+def test_what_is_held_counts_for_more_than_the_picture():
+    reference = CONTROL.nearness.points[0]
+    plain = CONTROL.nearness.scaled(reference, held=[])
+    held = CONTROL.nearness.scaled(reference, held=["colour"])
+    assert held.shape[1] == plain.shape[1] + 3
+    assert_allclose(held[:, :-3], plain)
+    body = (CONTROL.nearness.points - reference)[:, -3:]
+    assert_allclose(held[:, -3:], 4 / 3 * body / (reference[-3:] + 0.02) ** (2 / 3))
 
 
 @pytest.mark.parametrize("name", [n for n, a in ATTRIBUTES.items() if a.is_number and not a.needs])
@@ -160,6 +237,17 @@ def test_wishes_that_make_no_sense_are_refused(asked: dict, told: str):
         find(LIBRARY, **asked)
 
 
+def test_a_route_along_an_attribute_has_every_value_on_the_way():
+    """At its knots, and between two of them by linear mixes."""
+    low, high = ends("gloss60")
+    start, stop = low + 0.2 * (high - low), low + 0.6 * (high - low)
+    way = along(LIBRARY, "m1", "gloss60", start, stop, n=3)
+    for t in (0.0, 0.3, 0.5, 1.0):
+        has = CONTROL.attributes(way.recipe(t))
+        assert_allclose(has["gloss60"], (1 - t) * start + t * stop, rtol=1e-6)
+    assert len(way.to_json(way.steps(5))["recipes"]) == 5
+
+
 def test_the_command_line_finds_and_tells(tmp_path, monkeypatch, capsys):
     """A recipe found, and its attributes read again."""
     names = ["dark", "matte", "shiny"]
@@ -193,6 +281,11 @@ def test_the_command_line_finds_and_tells(tmp_path, monkeypatch, capsys):
     run(monkeypatch, "attributes", "new.json", "--json")
     (read,) = json.loads(capsys.readouterr().out)
     assert read["attributes"]["gloss60"] == pytest.approx(4, rel=1e-4)
+    run(
+        monkeypatch, "route", "three.brdflib", "dark", "--along", "gloss60=2:3", "-n", "3", "--json"
+    )
+    route = json.loads(capsys.readouterr().out)
+    assert route["stops"] == ["gloss60=2", "gloss60=3"]
     run(monkeypatch, "attributes", "three.brdflib")
     assert [line.split()[-1] for line in capsys.readouterr().out.splitlines()] == [
         "material",

@@ -88,3 +88,17 @@ def parse_targets(texts: Sequence[str]) -> dict[str, str]:
             raise ArgumentError(f"{text!r} {wrong}: expected such as gloss60=35, each once.")
         targets[name] = value
     return targets
+
+
+def parse_range(text: str) -> tuple[str, float, float]:
+    """The attribute and its ends written as ``gloss60=5:80``."""
+    name, _, ends = text.partition("=")
+    try:
+        start, stop = (float(end) for end in ends.split(":"))
+    except ValueError:
+        start = stop = math.nan
+    if not (math.isfinite(start) and math.isfinite(stop)):
+        raise ArgumentError(
+            f"--along {text!r} is no attribute with two ends: expected such as gloss60=5:80."
+        )
+    return name.strip(), start, stop

@@ -74,6 +74,14 @@ def lines(values: Mapping[str, Any]) -> list[str]:
     return [f"{a.name:16}{a.written(value):>10} {a.unit:8}{a.label}" for a, value in named]
 
 
+def changes(pairs: Mapping[str, tuple[Any, Any]]) -> str:
+    """What attributes were and are."""
+    from halfway.instruments import ATTRIBUTES
+
+    named = ((ATTRIBUTES[name], pair) for name, pair in pairs.items())
+    return ", ".join(f"{a.name} {a.written(was)} to {a.written(now)}" for a, (was, now) in named)
+
+
 def to_json(values: Mapping[str, Any]) -> dict[str, Any]:
     """The attributes of one material: numbers, null where there is none, and colours as text."""
     from halfway.instruments import ATTRIBUTES

@@ -8,7 +8,7 @@ import typer
 
 from ..locations import DEFAULT_LIBRARY
 from . import options
-from .attributes import lines, to_json
+from .attributes import changes, lines, to_json
 from .completion import complete_names
 from .console import say, show, work
 from .outputs import writing
@@ -18,7 +18,7 @@ Like = Annotated[
     str,
     typer.Option(
         metavar="WHAT",
-        help="What it shall be like: a name, a file, a recipe.",
+        help="What it shall be like: a name, a file, a recipe, a colour, a picture of a sphere.",
         autocompletion=complete_names,
     ),
 ]
@@ -42,6 +42,7 @@ def find(
     exactly: Exactly = [],  # noqa: B006 (typer copies it, here and below)
     at_most: AtMost = [],  # noqa: B006
     at_least: AtLeast = [],  # noqa: B006
+    blend: options.Blending = None,
     few: Few = False,
     clamp: Clamp = False,
     output: Output = None,
@@ -53,11 +54,13 @@ def find(
     \b
     halfway find --like cherry-235 --set gloss60=35 -o glossy.json
     halfway find merl.brdflib --set L=40 --set a=20 --set b=10 --at-most gloss60=5
+    halfway find --like teflon --set gloss60=20 --blend lobes -o shiny.json
+    halfway find --like sphere.png -o seen.json                         in the light of halfway's own spheres
     halfway find --like scan.binary --set "body=#7a3b1e" -o new.binary
     """
     from halfway.control import Control, Wishes
     from halfway.export import write_material, write_recipe
-    from halfway.recipes import NamedBrdf
+    from halfway.recipes import Blend, NamedBrdf
 
     from .arguments import ArgumentError, parse_targets
 
@@ -67,13 +70,17 @@ def find(
             "there is nothing to find: give --set, --at-most, --at-least or --like."
         )
     control = Control.of(lib, work=work())
-    recipe = control.find(wishes, like=like or None, few=few, clamp=clamp)
+    recipe = control.find(
+        wishes, like=like or None, blend=Blend(blend or Blend.LINEAR), few=few, clamp=clamp
+    )
     if output:
         with writing(output, force=force):
             if output.suffix == ".json":
                 write_recipe(output, control.library, recipe)
             else:
                 write_material(output, NamedBrdf.mixed(control.library, recipe, output.stem))
+    if lost := control.given_up(recipe, wishes, like):
+        say(f"no nearer mix keeps what {like} has: {changes(lost)}")
     read = control.attributes(recipe)
     if as_json:
         print(json.dumps({"format": 1, **recipe.to_json(), "attributes": to_json(read)}, indent=1))

@@ -144,6 +144,13 @@ Components = Annotated[
         help="Scores that span the space; the paper's takes 1 to 6. [default: 4 anchored, 3 the paper's]",
     ),
 ]
+Along = Annotated[
+    str,
+    typer.Option(
+        metavar="NAME=FROM:TO",
+        help="From one material along an attribute, such as gloss60=5:80, instead of to others.",
+    ),
+]
 Blending = Annotated[
     BlendName | None,
     typer.Option(

@@ -1,10 +1,17 @@
 """``halfway route``: recipes, and tables, on the way from one material to another."""
 
 import json
+from collections.abc import Callable
+from functools import partial
+from typing import TYPE_CHECKING
 
 from . import options
 from .console import say, working
 from .options import Pace, SpaceName, TableFormat
+
+if TYPE_CHECKING:
+    from ..library import Library
+    from ..space import Route
 
 
 def route(
@@ -16,6 +23,7 @@ def route(
     detour: options.Detour = 1.1,
     components: options.Components = None,
     blend: options.Blending = None,
+    along: options.Along = "",
     output: options.RouteFolder = None,
     format: options.Tables = TableFormat.none,
     as_json: options.RouteJson = False,
@@ -30,6 +38,7 @@ def route(
     halfway route light-brown-fabric blue-fabric -o fabric --format merl
     halfway route teflon gold-paint chrome -n 101
     halfway route cherry-235 tungsten-carbide --space paper --pace uniform --t 0.0001:1:0.0001
+    halfway route cherry-235 --along gloss60=2:20 -n 9
     """
     import halfway
     from halfway.export import write_route
@@ -41,22 +50,15 @@ def route(
     address, stops = split_library(words)
     library = halfway.open_library(address)
     require_length(n)
-    # A mistake is told before a space is fitted.
-    straight = halfway.route(library, *stops, space="linear", pace="uniform")
     wanted = parse_t(t) if t else None
-    checked = wanted or straight.steps(n)
-    straight.recipes([min(checked), max(checked)])
+    if along:
+        stops, make = _along(library, stops, along, n, blend)
+    else:
+        _refuse_mistakes(library, stops, n, wanted)
+        make = partial(halfway.route, library, *stops, space=space, pace=pace, blend=blend)
+        make = partial(make, n_components=components, detour=detour)
     with working(scheduler) as work:
-        way = halfway.route(
-            library,
-            *stops,
-            space=space,
-            pace=pace,
-            n_components=components,
-            blend=blend,
-            detour=detour,
-            work=work,
-        )
+        way = make(work=work)
         ts = wanted or way.steps(n)
         if as_json:
             print(json.dumps(way.to_json(ts)))
@@ -67,3 +69,31 @@ def route(
     tables = f", {written.n_written} tables written" if format != "none" else ""
     kept = f", {written.n_kept} kept" if written.n_kept else ""
     say(f"{folder}: {len(ts)} recipes{tables}{kept}. Next: halfway render {folder} -o route.png")
+
+
+def _refuse_mistakes(
+    library: "Library", stops: list[str], n: int, wanted: list[float] | None
+) -> None:
+    """A mistake is told before a space is fitted."""
+    import halfway
+
+    straight = halfway.route(library, *stops, space="linear", pace="uniform")
+    checked = wanted or straight.steps(n)
+    straight.recipes([min(checked), max(checked)])
+
+
+def _along(
+    library: "Library", words: list[str], along: str, n: int, blend: str | None
+) -> "tuple[list[str], Callable[..., Route]]":
+    """The words that a route along an attribute is called by, and what makes it."""
+    from halfway.space import along as route_along
+
+    from .arguments import ArgumentError, parse_range
+
+    if len(words) != 1:
+        raise ArgumentError(
+            f"--along takes one material to be like, and {len(words)} are given: name one."
+        )
+    name, start, stop = parse_range(along)
+    make = partial(route_along, library, words[0], name, start, stop, n=n, blend=blend or "linear")
+    return [words[0], f"{name}-{stop:g}"], make

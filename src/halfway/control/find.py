@@ -1,174 +1,14 @@
-"""Recipes by what they shall be: ``find`` and ``reach``.
-
-The weights are one row for all channels, so that what is linear in the table is linear in them. `Control` holds what is
-known of a library and answers at once; `find` and `reach` make it and ask it one thing.
-"""
+"""``find`` and ``reach``: a recipe by what it shall be, and how far an attribute goes, in one call."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any
 
-import numpy as np
-from jaxtyping import Float64
-
-from ..brdf import Brdf
 from ..errors import ControlError, OutOfReachError
-from ..instruments import Attribute, Readings, attribute, of_readings, table_of
-from ..library import Library, LibraryRef, open_library
-from ..recipes import Blend, Recipe, split_address
+from ..library import Library
+from ..recipes import Blend, Recipe
 from ..tasks import HERE, Work
-from .nearness import Nearness, numbers_of
-from .programme import Goals, Weights, solve
-from .wishes import SIGNS, Wishes, row_of
-
-SPREAD = 0.1
-"""What the distance of the ingredients counts, where that of their mix counts 1: of mixes that are as near, the one of
-materials that are near is taken."""
-MISSED = 1e3
-"""What it costs to miss a wish by the most that a material does, where the farthest material costs 1."""
-N_STEPS = 50
-"""Of the search for the end of a range; a ratio takes three or four."""
-SAME = 1e-9
-"""A step that moves the end by less, as a share, is the last."""
-
-Like = str | Recipe | Brdf | None
-
-
-class Range(NamedTuple):
-    """From the least to the most of an attribute."""
-
-    low: float
-    high: float
-
-
-@dataclass(frozen=True, eq=False)
-class Control:
-    """What is known of a library to find recipes with."""
-
-    library: Library
-    readings: Readings
-    nearness: Nearness
-
-    @classmethod
-    def of(cls, library: Library | str, *, work: Work = HERE) -> "Control":
-        """What is known of ``library``: read off its tables once, and kept in the cache."""
-        opened = open_library(library) if isinstance(library, str) else library
-        readings = Readings.fit(opened, work=work)
-        return cls(opened, readings, Nearness.fit(opened, readings, work=work))
-
-    def find(
-        self, wishes: Wishes, *, like: Like = None, few: bool = False, clamp: bool = False
-    ) -> Recipe:
-        """The recipe that has what is wished for and is nearest to ``like``; see the function `find`."""
-        differences = self.nearness.scaled(self._reference(like, wishes), held=wishes.held())
-        distance = np.abs(differences).sum(axis=1)
-        asked = wishes.goals(
-            self.readings.values, missed=MISSED * distance.max() if clamp else np.inf
-        )
-        near = Goals(differences.T, *np.ones((2, differences.shape[1])))
-        # Each goal takes a material more: the fewest are found where the mix itself is not compared.
-        goals = asked if few else Goals.join([near, asked])
-        weights = solve(SPREAD * distance, goals)
-        if weights is None:
-            raise OutOfReachError(self.out_of_reach(wishes))
-        return self._recipe(weights)
-
-    def reach(self, name: str, wishes: Wishes) -> Range | None:
-        """From the least to the most of an attribute where ``wishes`` hold; None where no mix has those."""
-        wanted = attribute(name)
-        wishes.require(wanted, bound=True)
-        goals = wishes.goals(self.readings.values)
-        start = solve(np.zeros(len(self.library)), goals)
-        if start is None:
-            return None
-        return Range(*(self._end(wanted, wishes, goals, start, sign) for sign in (-1, 1)))
-
-    def attributes(self, recipe: Recipe) -> dict[str, Any]:
-        """The attributes of a recipe of the library, by name, without its table."""
-        weights = np.zeros((3, len(self.library)))
-        weights[:, [self.library.index(name) for name in recipe.names]] = recipe.weights
-        return of_readings(self.readings.mix(weights, recipe.blend))
-
-    def number(self, wanted: Attribute, weights: Weights) -> float:
-        """An attribute of a mix; the most there is where it has none, as a matte one no highlight."""
-        dense = np.broadcast_to(weights, (3, len(weights)))
-        value = float(wanted.of(self.readings.mix(dense, Blend.LINEAR)))
-        return wanted.most if np.isnan(value) else value
-
-    def _end(
-        self, wanted: Attribute, wishes: Wishes, goals: Goals, start: Weights, sign: int
-    ) -> float:
-        """The least or the most: a step goes as far as can be beyond the value before, until there is nothing beyond.
-
-        W. Dinkelbach, "On Nonlinear Fractional Programming", Management Science 13, 1967.
-        """
-        value = self.number(wanted, start)
-        for _ in range(N_STEPS):
-            (condition,) = wanted.conditions(value, wishes.exact)
-            weights = solve(-sign * row_of(condition, self.readings.values), goals)
-            beyond = value if weights is None else self.number(wanted, weights)
-            if sign * (beyond - value) <= SAME * max(abs(value), SAME):
-                break
-            value = beyond
-        return value
-
-    def _reference(self, like: Like, wishes: Wishes) -> Float64[np.ndarray, " d"]:
-        """The numbers of what a recipe shall be like; without it, of the material that is nearest to the wishes."""
-        if like is None:
-            return self.nearness.points[wishes.nearest(self.readings.values)]
-        if isinstance(like, str) and like in self.library.names:
-            return self.nearness.points[self.library.index(like)]
-        named = isinstance(like, str) and len(split_address(like)) > 1
-        return numbers_of(table_of(like, library="" if named else self.library.address))
-
-    def out_of_reach(self, wishes: Wishes) -> str:
-        """Which wish is at fault, by itself or beside the others; how far it goes, and what to do."""
-        for alone in (True, False):
-            for kind, name, target in wishes.each():
-                others = wishes.without(kind, name)
-                held = others.only(attribute(name).needs) if alone else others
-                if told := self._too_far(kind, name, target, held):
-                    return (
-                        f"{told} Ask for that, release another, or take the nearest with --clamp."
-                    )
-        return (
-            f"no mix of {self.library.name} has {wishes}, and none with one of them less: "
-            "release some, or take the nearest with --clamp."
-        )
-
-    def _too_far(self, kind: str, name: str, target: Any, held: Wishes) -> str | None:
-        """What to say of a wish that no mix has where the others hold; None where one does, or none has the others."""
-        wanted = attribute(name)
-        beside = f" where {held}" if list(held.each()) else ""
-        told = f"no mix of {self.library.name} has {name} {SIGNS[kind]} {wanted.written(target)}{beside}"
-        if not wanted.is_number:
-            return self._nearest_colour(wanted, target, held, told)
-        ends = self.reach(name, held)
-        too_low = kind != "at_least" and ends is not None and target < ends.low
-        too_high = kind != "at_most" and ends is not None and target > ends.high
-        if ends is None or not (too_low or too_high):
-            return None
-        return (
-            f"{told}: it goes from {wanted.written(ends.low)} to {wanted.written(ends.high)} there."
-        )
-
-    def _nearest_colour(
-        self, wanted: Attribute, target: Any, held: Wishes, told: str
-    ) -> str | None:
-        nothing = np.zeros(len(self.library))
-        hard = held.goals(self.readings.values)
-        soft = Wishes({wanted.name: target}).goals(self.readings.values, missed=1.0)
-        weights = solve(nothing, Goals.join([hard, soft]))
-        exactly = Goals.join([hard, Wishes({wanted.name: target}).goals(self.readings.values)])
-        if weights is None or solve(nothing, exactly) is not None:
-            return None
-        return (
-            f"{told}: the nearest is {wanted.written(weights @ wanted.of(self.readings.values))}."
-        )
-
-    def _recipe(self, weights: Weights) -> Recipe:
-        dense = np.broadcast_to(weights, (3, len(weights)))
-        return Recipe.from_dense(LibraryRef.of(self.library), self.library.names, dense)
+from .control import Control, Like, Range
+from .wishes import Wishes
 
 
 def find(
@@ -178,6 +18,7 @@ def find(
     set: Mapping[str, Any] | None = None,
     at_most: Mapping[str, Any] | None = None,
     at_least: Mapping[str, Any] | None = None,
+    blend: Blend | str = Blend.LINEAR,
     few: bool = False,
     clamp: bool = False,
     work: Work = HERE,
@@ -189,10 +30,13 @@ def find(
     library : Library or str
         Open, or as `open_library` takes it.
     like : str, Recipe or Brdf
-        What it shall be like: a material of the library, or anything that `attributes` takes. Without it, the material that
-        has most of what is asked for.
+        What it shall be like: a material of the library, or anything that `attributes` takes; a colour such as ``#7a2a3a``; a
+        picture of a sphere (`halfway.control.pictures`). Without it, the material that has most of what is asked for.
     set, at_most, at_least : mapping
         Attributes by name, and their values: numbers, or a colour such as ``#7a2a3a`` for ``body``.
+    blend : Blend or str
+        How the recipe is mixed. Linear: what is asked for is met to rounding. Others: by some steps of Newton's method from
+        there, to `Attribute.close`.
     few : bool
         Of no more materials than there are numbers asked for, and one.
     clamp : bool
@@ -212,7 +56,8 @@ def find(
         raise ControlError(
             "there is nothing to find: expected an attribute, or what it shall be like."
         )
-    return Control.of(library, work=work).find(wishes, like=like, few=few, clamp=clamp)
+    control = Control.of(library, work=work)
+    return control.find(wishes, like=like, blend=Blend(blend), few=few, clamp=clamp)
 
 
 def reach(

@@ -14,13 +14,12 @@ from collections.abc import Collection
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Float64
+from jaxtyping import Float64, Int
 
+from .._types import Mask
 from ..brdf import TabularBrdf
 from ..instruments import ATTRIBUTES, Readings, read_table
-from ..library import Library
 from ..look import PACING_SCENE, Looks, SphereOperator
-from ..tasks import HERE, Work
 
 N_PARTS = 6
 """Of the picture, along each side."""
@@ -41,9 +40,9 @@ class Nearness:
     """Of each number."""
 
     @classmethod
-    def fit(cls, library: Library, readings: Readings, *, work: Work = HERE) -> "Nearness":
-        """The numbers of ``library``, whose readings are known."""
-        points = _numbers(Looks.fit(library, work=work).images, readings.values)
+    def of(cls, looks: Looks, readings: Readings) -> "Nearness":
+        """The numbers of a library, by its pictures and readings."""
+        points = _numbers(looks.images, readings.values)
         n_picture = points.shape[1] - len(REFLECTIONS) - 3
         groups = np.repeat(GROUPS, [n_picture, len(REFLECTIONS), 3])
         return cls(points, tuple(groups.tolist()))
@@ -51,12 +50,28 @@ class Nearness:
     def scaled(
         self, reference: Float64[np.ndarray, " d"], *, held: Collection[str]
     ) -> Float64[np.ndarray, "N n_counted"]:
-        """The differences of all materials from a reference, where distances count, with these groups held."""
-        weights = {"picture": 1.0, **dict.fromkeys(held, HELD)}
-        shares = {group: weights.get(group, 0.0) / self.groups.count(group) for group in GROUPS}
-        scale = np.array([shares[group] for group in self.groups])
-        differences = (self.points - reference) * scale / (np.abs(reference) + DARK) ** (2 / 3)
-        return differences[:, scale > 0]
+        """The differences of all materials from a reference, where distances count, with these groups held.
+
+        Numbers that the reference does not have, which are NaN, do not count.
+        """
+        known = np.isfinite(reference)
+        # What has no picture is told by what it has.
+        plain = 0.0 if known[0] else 1.0
+        weights = {**dict.fromkeys(GROUPS, plain), "picture": 1.0, **dict.fromkeys(held, HELD)}
+        scale = np.array([weights[group] / self.groups.count(group) for group in self.groups])
+        scale = np.where(known, scale / (np.abs(reference) + DARK) ** (2 / 3), 0)
+        counted = scale > 0
+        return (self.points - reference)[:, counted] * scale[counted]
+
+    def alone(self, group: str, numbers: np.ndarray) -> Float64[np.ndarray, " d"]:
+        """The numbers of a reference of which one group is known."""
+        out = np.full(len(self.groups), np.nan)
+        out[np.array(self.groups) == group] = numbers
+        return out
+
+    def of_group(self, group: str) -> Float64[np.ndarray, "N n_group"]:
+        """The numbers of one group, of all materials."""
+        return self.points[:, np.array(self.groups) == group]
 
 
 def numbers_of(table: TabularBrdf) -> Float64[np.ndarray, " d"]:
@@ -66,18 +81,22 @@ def numbers_of(table: TabularBrdf) -> Float64[np.ndarray, " d"]:
 
 
 def _numbers(pictures: np.ndarray, readings: np.ndarray) -> Float64[np.ndarray, "N d"]:
-    means = np.stack([pictures[:, part].mean(axis=1) for part in _parts()], axis=1)
     reflections = [ATTRIBUTES[name].of(readings) / 100 for name in REFLECTIONS]
-    parts = (
-        means.reshape(len(means), -1),
-        np.stack(reflections, axis=1),
-        ATTRIBUTES["body"].of(readings),
+    means = part_means(pictures, PACING_SCENE.mask())
+    return np.concatenate(
+        [means, np.stack(reflections, axis=1), ATTRIBUTES["body"].of(readings)], axis=1
     )
-    return np.concatenate(parts, axis=1)
 
 
-def _parts() -> list[np.ndarray]:
-    """The pixels of the sphere in each part of its picture."""
-    side = np.arange(PACING_SCENE.size) * N_PARTS // PACING_SCENE.size
-    part = (side[:, None] * N_PARTS + side)[PACING_SCENE.mask()]
-    return [np.flatnonzero(part == i) for i in np.unique(part)]
+def part_means(pictures: np.ndarray, mask: Mask) -> Float64[np.ndarray, "N n_picture"]:
+    """The means of the parts of pictures of a sphere, of which only the pixels of ``mask`` are given, shape (N, p, 3)."""
+    side = np.arange(len(mask)) * N_PARTS // len(mask)
+    part = (side[:, None] * N_PARTS + side)[mask]
+    means = [pictures[:, part == i].mean(axis=1, dtype=np.float64) for i in _parts()]
+    return np.concatenate(means, axis=1)
+
+
+def _parts() -> Int[np.ndarray, " n_parts"]:
+    """The parts whose middle is on the sphere."""
+    across = (np.arange(N_PARTS) + 0.5) * 2 / N_PARTS - 1
+    return np.flatnonzero(np.hypot(across, across[:, None]) < 1)

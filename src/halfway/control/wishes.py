@@ -75,6 +75,16 @@ class Wishes:
         missed = goals.above @ np.maximum(goals.rows, 0) + goals.below @ np.maximum(-goals.rows, 0)
         return int(np.nan_to_num(missed, nan=np.inf).argmin())
 
+    def missed(self, readings: Float64[np.ndarray, "n_instruments 3"]) -> float:
+        """By how much a material misses the worst of them, where `Attribute.close` is 1."""
+        worst = 0.0
+        for kind, name, target in self.each():
+            wanted = attribute(name)
+            above = np.nan_to_num(wanted.of(readings) - target, nan=np.inf)
+            by = {"exact": np.abs(above), "at_most": above, "at_least": -above}[kind]
+            worst = max(worst, float(np.max(by)) / wanted.close)
+        return worst
+
     def goals(self, readings: Values, *, missed: float = np.inf) -> Goals:
         """The goals for materials with these readings.
 

@@ -46,6 +46,8 @@ class Attribute(ABC):
     least: float = 0.0
     most: float = np.inf
     """Values that make sense are from ``least`` to ``most``."""
+    close: float = 0.1
+    """How near to a target is near enough, where it is sought by steps."""
     group: Literal["reflections", "colour"] = "reflections"
     """What it says of a material."""
     needs: str = ""

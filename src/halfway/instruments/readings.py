@@ -88,6 +88,6 @@ def _read(
     return np.stack([row.of(samples) if len(row.cells) else nothing for row in rows])
 
 
-@lru_cache(maxsize=2)  # 5 MB each on the MERL grid
+@lru_cache(maxsize=4)  # 5 MB each on the MERL grid
 def _of_grid(grid: Grid) -> list[quadrature.Functional]:
     return functionals(grid, grid.mask())

@@ -27,6 +27,8 @@ N_KEPT = 256
 class SmallTables:
     """The small tables of a library, read when they are asked for."""
 
+    grid = GRID
+
     def __init__(self, library: Library, *, work: Work = HERE) -> None:
         self._library = library
         self._row = lru_cache(N_KEPT)(partial(_kept, library, work))

@@ -1,5 +1,6 @@
 """Spaces where materials are points, and the routes through them."""
 
+from .along import along
 from .anchored import AnchoredSpace
 from .coordinates import Coordinates, Numbers, Scores
 from .embedding import Embedding
@@ -26,6 +27,7 @@ __all__ = [
     "Space",
     "Triangulation",
     "Way",
+    "along",
     "lengths",
     "make_space",
     "paced",

@@ -1,0 +1,62 @@
+"""A picture of a lit sphere, as something that a recipe may be like.
+
+The picture is square and the sphere fills it, in the light in which routes are paced (`halfway.look.PACING_SCENE`), as
+halfway's own spheres are drawn. Its exposure is free: it is the one at which some mix of the library's materials is nearest,
+
+    min over v >= 0 of |P v - picture|^2        w = v / sum v,   exposure = sum v
+
+with the parts of the materials' pictures in the columns of P, each difference as a share of the picture's own brightness.
+"""
+
+from pathlib import Path
+
+import numpy as np
+from jaxtyping import Float64
+
+from ..colour import from_srgb
+from ..errors import ControlError
+from .nearness import DARK, part_means
+
+PICTURES = (".png", ".jpg", ".jpeg", ".webp")
+LEAST_SIZE = 24
+"""Pixels along a side: four for each part."""
+
+
+def picture_numbers(
+    path: Path, materials: Float64[np.ndarray, "N n_picture"]
+) -> Float64[np.ndarray, " n_picture"]:
+    """The means of a picture's parts, exposed as ``materials`` are, of which it is taken to be a mix.
+
+    Raises
+    ------
+    ControlError
+        When it is no picture of a sphere.
+    """
+    from scipy.optimize import nnls
+
+    linear = _read(path)
+    n = len(linear)
+    across = (np.arange(n) + 0.5) * 2 / n - 1
+    sphere = np.hypot(across, across[:, None]) < 1
+    means = part_means(linear[sphere][None], sphere)[0]
+    scale = (means + DARK) ** (2 / 3)
+    v, _ = nnls((materials / scale).T, means / scale)
+    if not v.any():
+        raise ControlError(f"{path} is black where the sphere would be: expected a lit one.")
+    return means / v.sum()
+
+
+def _read(path: Path) -> Float64[np.ndarray, "n n 3"]:
+    from PIL import Image, UnidentifiedImageError
+
+    try:
+        with Image.open(path) as image:
+            pixels = np.asarray(image.convert("RGB"))
+    except UnidentifiedImageError:
+        raise ControlError(f"{path} is no picture: expected {', '.join(PICTURES)}.") from None
+    height, width, _ = pixels.shape
+    if height != width or height < LEAST_SIZE:
+        raise ControlError(
+            f"{path} is {width} x {height} pixels: expected a square, of {LEAST_SIZE} or more, that a sphere fills. Crop it."
+        )
+    return from_srgb(pixels / 255)
