@@ -125,8 +125,9 @@ def speed(browser: Browser, address: str) -> None:
     useful = time.perf_counter() - start
     page.wait_for_selector(".material[data-ready=true]", timeout=120_000)
     page.wait_for_load_state("networkidle")
+    loaded = sum(sizes) / 1e6
     steps = page.evaluate(DRAG)
-    print(f"first load: {sum(sizes) / 1e6:.1f} MB; stops, search and light after {useful:.2f} s")
+    print(f"first load: {loaded:.1f} MB; stops, search and light after {useful:.2f} s")
     print(f"a step of t: {statistics.median(steps):.0f} ms (median of {len(steps)})")
     page.close()
 
