@@ -1,12 +1,15 @@
 """The pictures and the numbers of the page on the explorer, made by driving it in Chromium.
 
 ``python docs/explorer.py`` writes screenshots, and pictures of three materials on a sphere and a teapot in two lights, in the page
-beside the same in Mitsuba, and prints how far the two are apart. ``--only compare`` or ``--only screens`` does one of the two.
+beside the same in Mitsuba, and prints how far the two are apart. ``--only compare``, ``--only screens`` or ``--only speed`` (what the
+first load takes, and a drag of t) does one of them.
 """
 
 import argparse
 import shutil
+import statistics
 import threading
+import time
 from collections.abc import Generator
 from contextlib import contextmanager, suppress
 from dataclasses import replace
@@ -51,16 +54,18 @@ SCREENS = {
 def main() -> None:
     """Make what is asked for."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--only", choices=["compare", "screens"])
+    parser.add_argument("--only", choices=["compare", "screens", "speed"])
     only = parser.parse_args().only
     library = open_library("builtin:merl-abc")
     with served(library) as address, sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=shutil.which("chromium"), args=FLAGS)
-        if only != "screens":
+        if only in (None, "compare"):
             compare(browser, address, library)
-        if only != "compare":
+        if only in (None, "screens"):
             for name in SCREENS:
                 take(browser, address, name)
+        if only in (None, "speed"):
+            speed(browser, address)
         browser.close()
 
 
@@ -105,6 +110,40 @@ def compare(browser: Browser, address: str, library: Library) -> None:
     page.close()
     picture = pictures.to_8_bit(np.concatenate(rows))
     Image.fromarray(picture).save(IMAGES / "explorer-beside-mitsuba.webp", quality=88)
+
+
+def speed(browser: Browser, address: str) -> None:
+    """What comes over the wire until the picture is there, when something useful is on the page, and a step of t."""
+    page = browser.new_page(viewport={"width": 460, "height": 560})
+    session = page.context.new_cdp_session(page)
+    session.send("Network.enable")
+    sizes: list[float] = []
+    session.on("Network.loadingFinished", lambda event: sizes.append(event["encodedDataLength"]))
+    start = time.perf_counter()
+    page.goto(address, wait_until="commit")
+    page.wait_for_selector(".chip")
+    useful = time.perf_counter() - start
+    page.wait_for_selector(".material[data-ready=true]", timeout=120_000)
+    page.wait_for_load_state("networkidle")
+    loaded = sum(sizes) / 1e6
+    steps = page.evaluate(DRAG)
+    print(f"first load: {loaded:.1f} MB; stops, search and light after {useful:.2f} s")
+    print(f"a step of t: {statistics.median(steps):.0f} ms (median of {len(steps)})")
+    page.close()
+
+
+DRAG = """async () => {
+  const input = document.querySelector("[name=t]");
+  const times = [];
+  for (let i = 0; i <= 100; i++) {
+    const start = performance.now();
+    input.value = String(0.5 + 0.1 * Math.sin(i / 10));
+    input.dispatchEvent(new Event("input"));
+    await new Promise(requestAnimationFrame);
+    times.push(performance.now() - start);
+  }
+  return times;
+}"""
 
 
 def in_page(

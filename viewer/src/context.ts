@@ -31,6 +31,8 @@ export interface Options {
   readonly linked?: Partial<Linked>;
   /** Told the fragment that leads back here, some time after it changed. */
   readonly onFragment?: (fragment: string) => void;
+  /** Told what is shown, in a few words. */
+  readonly onTitle?: (title: string) => void;
   /** The address that "copy a link" copies; without it there is no such button. */
   readonly address?: () => string;
   readonly theme?: Theme;

@@ -5,6 +5,7 @@ import { toHash } from "./permalink";
 import { join, type Route, reversed } from "./route";
 import { toText } from "./shortlist";
 import { comparedSpace, LINKED, type Panel, type State } from "./state";
+import { shortName } from "./title";
 import { comingUp, shownNames } from "./wanted";
 
 export function follow(context: Context): void {
@@ -134,9 +135,12 @@ const UNHURRIED = 150;
 function keepLink({ store, options, signal }: Context): void {
   let timer: ReturnType<typeof setTimeout> | undefined;
   signal.addEventListener("abort", () => clearTimeout(timer));
-  store.watch(LINKED, () => {
+  store.watch([...LINKED, "held", "recipe"], () => {
     clearTimeout(timer);
-    timer = setTimeout(() => options.onFragment?.(toHash(store.get())), UNHURRIED);
+    timer = setTimeout(() => {
+      options.onFragment?.(toHash(store.get()));
+      options.onTitle?.(shortName(store.get()));
+    }, UNHURRIED);
   });
 }
 

@@ -17,6 +17,9 @@ const data = document.querySelector<HTMLMetaElement>("meta[name=halfway-data]")?
 mount(document.querySelector<HTMLElement>("#app")!, data ? files(data) : http, {
   fragment: location.hash,
   onFragment: (fragment) => history.replaceState(null, "", fragment),
+  onTitle: (title) => {
+    document.title = `${title} · halfway`;
+  },
   address: () => location.href,
   theme: (localStorage.getItem(THEME) ?? "auto") as Theme,
   onTheme: (theme) => localStorage.setItem(THEME, theme),

@@ -3,6 +3,7 @@
 import { Problem } from "./api/client";
 import type { Context } from "./context";
 import { toHash } from "./permalink";
+import { readLight } from "./render/environments";
 import { readMesh } from "./render/meshes";
 import { HOME } from "./scene";
 import { fromText } from "./shortlist";
@@ -17,6 +18,7 @@ interface Kind {
 const KINDS: readonly Kind[] = [
   { suffixes: ["ply", "obj"], what: "a mesh", open: openMesh },
   { suffixes: ["binary", "bsdf", "h5"], what: "a measurement", open: addMeasurement },
+  { suffixes: ["hdr", "exr"], what: "a light", open: openLight },
   { suffixes: ["json"], what: "a recipe or a shortlist", open: openRecipes },
 ];
 
@@ -94,6 +96,12 @@ async function openRecipes({ store, actions }: Context, file: File): Promise<voi
   const opened = fromText(await file.text(), file.name, store.get().library);
   actions.keep(...opened);
   if (opened.length === 1) actions.hold(opened[0]!);
+}
+
+/** A picture of light all around takes the place of the light. */
+async function openLight({ lights, store }: Context, file: File): Promise<void> {
+  lights.put(await readLight(file));
+  store.set({ light: "own", ownLight: file.name, turn: 0 });
 }
 
 async function openMesh({ store }: Context, file: File): Promise<void> {

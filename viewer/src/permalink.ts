@@ -2,8 +2,11 @@
 
 import type { LibrarySummary } from "./api/schema";
 import { clamp } from "./numbers";
-import { EXPOSURES, HOME, LIGHTS, type Orbit, zoomed } from "./scene";
-import { asCompared, type Linked } from "./state";
+import { EXPOSURES, HOME, LIGHTS, type Orbit, TONES, TURNS, zoomed } from "./scene";
+import { asCompared, type Linked, PLOTS } from "./state";
+
+/** What stands as it is at first is left out. */
+const USUAL: Partial<Record<keyof Linked, string>> = { turn: "0", tone: "none", split: "0.5", plot: "lobes" };
 
 export function toHash(linked: Linked): string {
   const { azimuth, elevation, zoom } = linked.orbit;
@@ -17,12 +20,17 @@ export function toHash(linked: Linked): string {
     compare: linked.compare.startsWith("kept:") ? "" : linked.compare,
     // A mesh stays with the person who has its file.
     shape: linked.shape === "mesh" ? "" : linked.shape,
-    light: linked.light,
+    light: linked.light === "own" ? "" : linked.light,
+    turn: short(linked.turn, 0),
     exposure: short(linked.exposure, 2),
+    tone: linked.tone,
+    split: short(linked.split, 3),
+    map: linked.map,
+    plot: linked.plot,
     orbit: [azimuth, elevation, zoom].map((x) => short(x, 3)).join(","),
   };
   return `#${Object.entries(fields)
-    .filter(([, value]) => value !== "")
+    .filter(([key, value]) => value !== "" && value !== USUAL[key as keyof Linked])
     .map(([key, value]) => `${key}=${encodeURIComponent(value).replaceAll("%2C", ",")}`)
     .join("&")}`;
 }
@@ -51,6 +59,11 @@ export function fromHash(hash: string, library: LibrarySummary): Partial<Linked>
     compare: oneOf("compare", [...spaces, ...materials.map(asCompared)]),
     shape: oneOf("shape", ["sphere", "teapot"]),
     light: oneOf("light", LIGHTS),
+    turn: number("turn", ...TURNS),
+    tone: oneOf("tone", TONES),
+    split: number("split", 0, 1),
+    map: fields.get("map") || undefined,
+    plot: oneOf("plot", PLOTS),
     exposure: number("exposure", ...EXPOSURES),
     orbit: toOrbit(list("orbit").map(Number.parseFloat)),
   };

@@ -39,9 +39,26 @@ export function zoomed(orbit: Orbit, factor: number): Orbit {
 export const PICTURES = ["apartment", "city", "dawn", "forest", "lobby", "night", "park", "sunset", "warehouse"] as const;
 export type Picture = (typeof PICTURES)[number];
 
+/** How what is brighter than the screen is shown. */
+export const TONES = ["none", "agx", "filmic"] as const;
+export type Tone = (typeof TONES)[number];
+
+/** Degrees that the light can be turned about the vertical. */
+export const TURNS = [-180, 180] as const;
+
+/** A point turned by degrees about the vertical, as the picture of an environment is. */
+export function turnedAbout(
+  [x, y, z]: readonly [number, number, number],
+  degrees: number,
+): [number, number, number] {
+  const [sine, cosine] = [Math.sin, Math.cos].map((f) => f((degrees * Math.PI) / 180));
+  return [x * cosine! - y * sine!, x * sine! + y * cosine!, z];
+}
+
 /** The lights one can choose: the studio of `halfway.render`, the pictures, and three points. */
 export const LIGHTS = ["studio", ...PICTURES, "points"] as const;
-export type Light = (typeof LIGHTS)[number];
+/** `own` is a person's own picture. */
+export type Light = (typeof LIGHTS)[number] | "own";
 
 /** Stops of exposure. */
 export const EXPOSURES = [-4, 4] as const;
@@ -51,4 +68,6 @@ export interface View {
   readonly mesh: OwnMesh | null;
   readonly orbit: Orbit;
   readonly light: Light;
+  /** Of the light about the vertical, in degrees. */
+  readonly turn: number;
 }

@@ -5,10 +5,12 @@ import type { LibrarySummary, PositionView, SpaceView } from "./api/schema";
 import { clamp } from "./numbers";
 import { fromDocument, type Ingredient, only } from "./recipe";
 import { type Route, recipeAt } from "./route";
-import { HOME, type View } from "./scene";
+import { HOME, type Tone, type View } from "./scene";
 import { type Kept, recipeOf } from "./shortlist";
 import { createStore, type Store } from "./store";
 
+export const PLOTS = ["lobes", "slice", "albedo"] as const;
+export type PlotKind = (typeof PLOTS)[number];
 export type Theme = "auto" | "light" | "dark";
 
 /** Where a notice stands: beside the act that it is about. */
@@ -35,6 +37,12 @@ export interface State extends View {
   readonly goal: number | null;
   readonly playing: boolean;
   readonly exposure: number;
+  readonly tone: Tone;
+  /** The file of a person's own light. */
+  readonly ownLight: string | null;
+  /** The map of the space that is shown, and the plot of the BRDF. */
+  readonly map: string;
+  readonly plot: PlotKind;
   readonly theme: Theme;
   /** What the theme comes to here and now. */
   readonly scheme: "light" | "dark";
@@ -79,7 +87,7 @@ export type Whereabouts = Pick<State, "space" | "pace" | "stops" | "point">;
 
 /** What a link carries. */
 // biome-ignore format: it is one list.
-export const LINKED = ["space", "pace", "stops", "t", "point", "compare", "shape", "light", "exposure", "orbit"] as const;
+export const LINKED = ["space", "pace", "stops", "t", "point", "compare", "shape", "light", "turn", "exposure", "tone", "orbit", "split", "map", "plot"] as const;
 export type Linked = Pick<State, (typeof LINKED)[number]>;
 
 const MAX_PAST = 100;
@@ -101,6 +109,12 @@ export function createState(library: LibrarySummary, linked: Partial<Linked>, th
     shape: "sphere",
     mesh: null,
     light: "studio",
+    turn: 0,
+    tone: "none",
+    ownLight: null,
+    split: 0.5,
+    map: "",
+    plot: "lobes",
     exposure: 0,
     orbit: HOME,
     point: null,
@@ -123,7 +137,6 @@ export function createState(library: LibrarySummary, linked: Partial<Linked>, th
     held: null,
     otherRoute: null,
     otherRecipe: [],
-    split: 0.5,
     arrived: 0,
     pictured: false,
     notices: [],

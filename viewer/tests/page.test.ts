@@ -55,8 +55,13 @@ test("a link comes back to the same view", () => {
     compare: "paper",
     shape: "teapot",
     light: "points",
+    turn: -30,
     exposure: -1.5,
+    tone: "agx",
     orbit: { azimuth: 0.5, elevation: -0.25, zoom: 2 },
+    split: 0.25,
+    map: "Scores",
+    plot: "albedo",
   } as const;
   expect(fromHash(toHash(linked), LIBRARY)).toEqual(linked);
 });

@@ -27,6 +27,11 @@ export class Lights {
     return this.environments.get(light);
   }
 
+  /** A person's own picture. */
+  put(block: Block): void {
+    this.environments.set("own", toEnvironment(block));
+  }
+
   private async load(picture: Picture): Promise<void> {
     try {
       this.environments.set(picture, toEnvironment(await loadPicture(picture)));

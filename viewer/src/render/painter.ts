@@ -8,7 +8,7 @@ import * as THREE from "three";
 
 import type { PointLight } from "../api/schema";
 import { type Ingredient, namesIn } from "../recipe";
-import type { View } from "../scene";
+import { TONES, type Tone, turnedAbout, type View } from "../scene";
 import { NoCardError, toRenderer } from "./card";
 import type { Environment } from "./environment";
 import { type Layer, Layers } from "./layers";
@@ -40,6 +40,7 @@ export interface Shown {
   readonly split: number;
   /** Factor of the light. */
   readonly exposure: number;
+  readonly tone: Tone;
 }
 
 export class Painter {
@@ -62,7 +63,7 @@ export class Painter {
   constructor(
     canvas: HTMLCanvasElement,
     private readonly tables: Tables,
-    lights: readonly PointLight[],
+    private readonly lights: readonly PointLight[],
   ) {
     this.renderer = toRenderer({
       canvas,
@@ -80,7 +81,7 @@ export class Painter {
     this.environment = new Pass(environmentShader, RUNNING_MEAN).set(surface);
     this.points = new Pass(pointsShader, RUNNING_MEAN).set({
       ...surface,
-      uLights: lights.map(({ at: [x, y, z] }) => new THREE.Vector3(x, y, z)),
+      uLights: this.lightsAt(0),
       uIntensities: lights.map(({ intensity }) => intensity),
     });
     this.pass = this.environment;
@@ -124,6 +125,7 @@ export class Painter {
     this.stage.look(view);
     this.pass = environment === null ? this.points : this.environment;
     const { occluder } = this.stage;
+    this.points.set({ uLights: this.lightsAt(view.turn) });
     this.pass.set({
       uBoxes: occluder?.boxes ?? null,
       uTriangles: occluder?.triangles ?? null,
@@ -131,9 +133,18 @@ export class Painter {
     });
     if (environment !== null) {
       const { picture, rows, chances } = environment;
-      this.environment.set({ uEnv: picture, uEnvRows: rows, uEnvChances: chances });
+      this.environment.set({
+        uEnv: picture,
+        uEnvRows: rows,
+        uEnvChances: chances,
+        uEnvTurn: view.turn / 360,
+      });
     }
     this.restart();
+  }
+
+  private lightsAt(degrees: number): THREE.Vector3[] {
+    return this.lights.map(({ at }) => new THREE.Vector3(...turnedAbout(at, degrees)));
   }
 
   get targetSamples(): number {
@@ -202,7 +213,8 @@ export class Painter {
       uCount: Math.min(recipe.length, MAX_TERMS),
       uOtherCount: Math.min(other.length, MAX_TERMS),
       uSplit: (other.length ? wanted.split : 1) * this.target!.width,
-      uExposure: wanted.exposure,
+      toneMappingExposure: wanted.exposure,
+      uTone: TONES.indexOf(wanted.tone),
     });
     this.composite.draw(this.renderer, null);
     return recipe.length > 0;

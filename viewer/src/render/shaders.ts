@@ -35,7 +35,11 @@ export const environmentShader =
   lobe +
   shade;
 export const sphereShader = HEAD + sphere;
-export const compositeShader = HEAD + srgb + composite.replaceAll("@TERMS@", String(MAX_TERMS));
+export const compositeShader =
+  HEAD +
+  THREE.ShaderChunk.tonemapping_pars_fragment +
+  srgb +
+  composite.replaceAll("@TERMS@", String(MAX_TERMS));
 
 export function meshMaterial(): THREE.RawShaderMaterial {
   return new THREE.RawShaderMaterial({

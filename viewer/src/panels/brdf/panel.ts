@@ -4,6 +4,7 @@ import type { DrawableGrid } from "../../brdf/grid";
 import type { Context } from "../../context";
 import { dropdown, el, onResize, segments, style } from "../../dom";
 import { paced } from "../../paced";
+import type { PlotKind } from "../../state";
 import { albedo } from "./albedo";
 import { lobes } from "./lobes";
 import { type Pen, type Plot, type Reading, SCALES, type Scale, short } from "./plot";
@@ -16,8 +17,6 @@ const PATIENCE = 24;
 const BESIDE = 60;
 
 const NOTHING = new Float64Array();
-
-type View = "lobes" | "slice" | "albedo";
 
 /** What a view can be told: an angle, named as it is written, up to `max`; and a scale. */
 interface Settings {
@@ -33,8 +32,7 @@ export function brdfPanel(context: Context): HTMLElement {
 
 class BrdfPanel {
   readonly element: HTMLElement;
-  private view: View = "lobes";
-  private readonly settings: Record<View, Settings | null> = {
+  private readonly settings: Record<PlotKind, Settings | null> = {
     lobes: { angle: ["θ", "i"], max: 85, degrees: 45, scale: "cube root" },
     slice: { angle: ["φ", "d"], max: 179, degrees: 90, scale: "linear" },
     albedo: null,
@@ -79,23 +77,21 @@ class BrdfPanel {
   }
 
   private viewChoice(controls: HTMLElement): HTMLElement {
-    const { element, mark } = segments<View>(
+    const { element, mark } = segments<PlotKind>(
       "BRDF view",
       [
         ["lobes", "Lobes"],
         ["slice", "Slice"],
         ["albedo", "Albedo"],
       ],
-      (view) => choose(view),
+      (plot) => this.context.store.set({ plot }),
     );
-    const choose = (view: View) => {
-      this.view = view;
-      mark(view);
-      const settings = this.settings[view];
+    this.context.store.watch(["plot"], ({ plot }) => {
+      mark(plot);
+      const settings = this.settings[plot];
       controls.replaceChildren(...(settings ? [this.angle(settings), this.scale(settings)] : []));
       this.update();
-    };
-    choose(this.view);
+    });
     return element;
   }
 
@@ -135,9 +131,10 @@ class BrdfPanel {
 
   private plot(): Plot {
     const { lobes: ofLobes, slice: ofSlice } = this.settings;
-    const grid = this.context.store.get().library.grid as unknown as DrawableGrid;
-    if (this.view === "lobes") return lobes(ofLobes!.degrees, ofLobes!.scale);
-    return this.view === "slice" ? slice(grid, ofSlice!.degrees, ofSlice!.scale) : albedo();
+    const { library, plot } = this.context.store.get();
+    const grid = library.grid as unknown as DrawableGrid;
+    if (plot === "lobes") return lobes(ofLobes!.degrees, ofLobes!.scale);
+    return plot === "slice" ? slice(grid, ofSlice!.degrees, ofSlice!.scale) : albedo();
   }
 
   private draw(): void {

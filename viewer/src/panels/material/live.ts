@@ -57,8 +57,8 @@ export class LivePicture {
       this.painter.dispose();
     });
     onResize(canvas, (width, height) => this.resize(width, height));
-    store.watch(["shape", "mesh", "orbit", "light"], () => this.look());
-    store.watch(["recipe", "otherRecipe", "split", "exposure"], () => {
+    store.watch(["shape", "mesh", "orbit", "light", "turn", "ownLight"], () => this.look());
+    store.watch(["recipe", "otherRecipe", "split", "exposure", "tone"], () => {
       this.quality.materialChanged(performance.now());
       this.next();
     });
@@ -155,8 +155,8 @@ export class LivePicture {
 
   private show(state: State, names: readonly string[]): void {
     const { painter, quality } = this;
-    const { recipe, otherRecipe, split, exposure } = state;
-    const drawn = painter.show({ recipe, other: otherRecipe, split, exposure: 2 ** exposure });
+    const { recipe, otherRecipe, split, exposure, tone } = state;
+    const drawn = painter.show({ recipe, other: otherRecipe, split, exposure: 2 ** exposure, tone });
     const needed = this.needed(names);
     this.setCovered(quality.covers(drawn, needed));
     this.report({

@@ -21,8 +21,12 @@ const ARROWS: Readonly<Record<string, readonly [number, number]>> = {
 export function orbitOnDrag({ store }: Context, canvas: HTMLCanvasElement): void {
   const turn = (azimuth: number, elevation: number) =>
     store.set({ orbit: turned(store.get().orbit, azimuth, elevation) });
+  const turnLight = (radians: number) => {
+    const degrees = store.get().turn + (radians * 180) / Math.PI;
+    store.set({ turn: Math.round(((((degrees + 180) % 360) + 360) % 360) - 180) });
+  };
   const zoom = (factor: number) => store.set({ orbit: zoomed(store.get().orbit, factor) });
-  listenToFingers(canvas, turn, zoom);
+  listenToFingers(canvas, turn, zoom, turnLight);
   turnOnKeys(canvas, turn);
   canvas.addEventListener(
     "wheel",
@@ -34,22 +38,24 @@ export function orbitOnDrag({ store }: Context, canvas: HTMLCanvasElement): void
   );
 }
 
-/** One finger, or the mouse, turns; two zoom. */
+/** One finger, or the mouse, turns, and the light with Shift; two zoom. */
 function listenToFingers(
   canvas: HTMLCanvasElement,
   turn: (azimuth: number, elevation: number) => void,
   zoom: (factor: number) => void,
+  turnLight: (radians: number) => void,
 ): void {
   const down = new Map<number, Point>();
   canvas.addEventListener("pointerdown", ({ pointerId, clientX: x, clientY: y }) => {
     canvas.setPointerCapture(pointerId);
     down.set(pointerId, { x, y });
   });
-  canvas.addEventListener("pointermove", ({ pointerId, clientX: x, clientY: y }) => {
+  canvas.addEventListener("pointermove", ({ pointerId, shiftKey, clientX: x, clientY: y }) => {
     const from = down.get(pointerId);
     if (from === undefined) return;
     const other = [...down].find(([id]) => id !== pointerId)?.[1];
-    if (other === undefined) turn(-(x - from.x) * DRAGGED, (y - from.y) * DRAGGED);
+    if (other === undefined && shiftKey) turnLight((x - from.x) * DRAGGED);
+    else if (other === undefined) turn(-(x - from.x) * DRAGGED, (y - from.y) * DRAGGED);
     else zoom(distance({ x, y }, other) / Math.max(distance(from, other), 1));
     down.set(pointerId, { x, y });
   });

@@ -1,9 +1,9 @@
 // The material: a live picture of the exact mixed table.
 
 import type { Context } from "../../context";
-import { dropdown, el, iconButton } from "../../dom";
+import { dropdown, el, iconButton, popover } from "../../dom";
 import { NoCardError } from "../../render/card";
-import { EXPOSURES, HOME, LIGHTS, type Light } from "../../scene";
+import { EXPOSURES, HOME, LIGHTS, type Light, TONES, TURNS } from "../../scene";
 import { notices } from "../notices";
 import { LivePicture, type Progress } from "./live";
 import { shapeChoice } from "./objects";
@@ -35,7 +35,7 @@ export function materialPanel(context: Context): HTMLElement {
     el(
       "div.line.wrap.bar.bottom",
       shapeChoice(context),
-      el("div.line.wrap", lightChoice(context), exposure(context)),
+      el("div.line.wrap", lightChoice(context), lightSettings(context), exposure(context)),
     ),
     notices(context, "material"),
   );
@@ -77,11 +77,50 @@ const TITLES: Partial<Record<Light, string>> = { points: "three lights" };
 function lightChoice({ store }: Context): HTMLElement {
   const lights = LIGHTS.map((light) => [light, TITLES[light]] as const);
   const select = dropdown({ name: "light", "aria-label": "Light" }, lights, (light) => store.set({ light }));
-  store.watch(["light"], ({ light }) => {
+  const own = el("option", { value: "own", hidden: true });
+  select.append(own);
+  store.watch(["light", "ownLight"], ({ light, ownLight }) => {
+    own.hidden = ownLight === null;
+    own.textContent = ownLight;
     select.value = light;
   });
   return select;
 }
+
+/** How the light is turned, and how the picture is toned. */
+function lightSettings({ store }: Context): HTMLElement {
+  const [min, max] = TURNS;
+  const turn = el("input", {
+    type: "range",
+    name: "turn",
+    min,
+    max,
+    step: 1,
+    oninput: () => store.set({ turn: Number(turn.value) }),
+  });
+  const degrees = el("output");
+  const tones = TONES.map((tone) => [tone, TONE_TITLES[tone]] as const);
+  const tone = dropdown({ name: "tone" }, tones, (value) => store.set({ tone: value }));
+  store.watch(["turn", "tone"], (state) => {
+    turn.value = String(state.turn);
+    degrees.textContent = `${state.turn}°`;
+    tone.value = state.tone;
+  });
+  const form = popover(
+    "Light",
+    el("label.line.choice", "Turned (Shift and drag the object)", turn, degrees),
+    el("label.line.choice", "Tone mapping", tone),
+    el("p.quiet", "Your own light: drop a .hdr or .exr file anywhere."),
+  );
+  form.classList.add("low");
+  return el(
+    "div",
+    iconButton("tune", "Turn the light, tone mapping", () => form.togglePopover()),
+    form,
+  );
+}
+
+const TONE_TITLES = { none: "none: colours as they are", agx: "AgX", filmic: "filmic (ACES)" } as const;
 
 function exposure({ store }: Context): HTMLElement {
   const [min, max] = EXPOSURES;

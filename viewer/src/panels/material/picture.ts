@@ -33,7 +33,7 @@ export function pictureButton(context: Context, panel: () => HTMLElement): HTMLE
         note.textContent = `${Math.floor(100 * share)} %`;
       });
       if (background === "backdrop") putBehind(picture, panel());
-      download(await picture.convertToBlob(), `${materialName(context.store.get())}.png`);
+      download(await picture.convertToBlob(), pictureName(context));
       context.actions.say("material", "picture", null);
     } catch (error) {
       context.actions.say(
@@ -52,19 +52,25 @@ export function pictureButton(context: Context, panel: () => HTMLElement): HTMLE
   return el("div", open, form);
 }
 
+/** Says how it was toned: such a picture has other colours. */
+function pictureName({ store }: Context): string {
+  const state = store.get();
+  return `${materialName(state)}${state.tone === "none" ? "" : `-${state.tone}`}.png`;
+}
+
 async function photographed(
   { store, tables, lights, thumbnails }: Context,
   size: number,
   onProgress: (share: number) => void,
 ): Promise<OffscreenCanvas> {
   const view = store.get();
-  const { recipe, otherRecipe: other, split, exposure } = view;
+  const { recipe, otherRecipe: other, split, exposure, tone } = view;
   const environment = lights.get(view.light);
   if (environment === undefined) throw new Error("its light has not come yet.");
   const subject = { view, environment, lights: view.library.lights };
   try {
     return await photograph(
-      { ...subject, recipe, other, split, exposure: 2 ** exposure },
+      { ...subject, recipe, other, split, exposure: 2 ** exposure, tone },
       tables,
       size,
       onProgress,

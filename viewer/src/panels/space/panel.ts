@@ -69,8 +69,6 @@ export function spacePanel(context: Context): HTMLElement {
 class SpacePicture {
   readonly labels: Labels;
   private readonly appearance: Appearance;
-  /** The name of the map that is chosen. */
-  private chosen = APPEARANCE;
   private axes: ReturnType<CoordinateMap["axes"]> = [];
   /** Where the present material is. */
   private here: Vector3 | null = null;
@@ -104,20 +102,26 @@ class SpacePicture {
     store.watch(["stops", "hovered", "matches"], (state) => this.dress(state));
   }
 
+  /** What the chosen map shows; undefined for that of looks. */
   private get embedding() {
-    return this.context.store.get().view?.embeddings.find(({ name }) => name === this.chosen);
+    const { view, map } = this.context.store.get();
+    return view?.embeddings.find(({ name }) => name === map);
+  }
+
+  /** The name of the map that is shown. */
+  private get chosen(): string {
+    return this.embedding?.name ?? APPEARANCE;
   }
 
   /** The maps that the space has. */
   private offer(): void {
     const embeddings = this.context.store.get().view?.embeddings ?? [];
     const options = [APPEARANCE, ...embeddings.map(({ name }) => name)];
-    if (!options.includes(this.chosen)) this.chosen = APPEARANCE;
     const { element, mark } = segments(
       "Map",
       options.map((name) => [name]),
       (map) => {
-        this.chosen = map;
+        this.context.store.set({ map });
         mark(map);
         this.arrange();
       },

@@ -1,5 +1,5 @@
 // The picture of a recipe is the weighted sum of its materials' pictures, channel by channel: exact, because direct light is
-// linear in the BRDF. Then exposure and the curve of the screen.
+// linear in the BRDF. Then exposure, tone mapping (three's, where one is chosen) and the curve of the screen.
 
 uniform highp sampler2DArray uBasis;
 uniform vec4 uTerms[@TERMS@]; // weights of r, g, b; layer
@@ -7,8 +7,14 @@ uniform vec4 uOtherTerms[@TERMS@];
 uniform int uCount;
 uniform int uOtherCount;
 uniform float uSplit; // pixels from the left; the other recipe is to its right
-uniform float uExposure;
+uniform int uTone; // 0 none, 1 AgX, 2 filmic
 out vec4 colour;
+
+vec3 toned(vec3 linear) {
+  if (uTone == 1) return AgXToneMapping(linear);
+  if (uTone == 2) return ACESFilmicToneMapping(linear);
+  return toneMappingExposure * linear;
+}
 
 void main() {
   ivec2 here = ivec2(gl_FragCoord.xy);
@@ -22,5 +28,5 @@ void main() {
     if (basis.a > 0.0) sum += term.rgb * basis.rgb / basis.a;
     coverage = max(coverage, basis.a);
   }
-  colour = vec4(toSrgb(uExposure * sum) * coverage, coverage);
+  colour = vec4(toSrgb(toned(sum)) * coverage, coverage);
 }

@@ -3,12 +3,13 @@
 // Sampled by a coarse table of its light, a row and then a cell of it, evenly within the cell.
 
 uniform highp sampler2D uEnv;
+uniform float uEnvTurn; // about the vertical, in turns
 uniform highp sampler2D uEnvRows;
 uniform highp sampler2D uEnvChances; // of the cells of a row; density per solid angle x sine
 
 // Where a direction is on the picture.
 vec2 toPicture(vec3 w) {
-  return vec2(atan(w.x, w.y) / (2.0 * PI) + 0.5, acos(clamp(w.z, -1.0, 1.0)) / PI);
+  return vec2(fract(atan(w.x, w.y) / (2.0 * PI) + 0.5 + uEnvTurn), acos(clamp(w.z, -1.0, 1.0)) / PI);
 }
 
 vec3 radiance(vec2 uv) {
@@ -27,7 +28,7 @@ vec3 sampleEnv(vec2 u) {
   int row = invert(uEnvRows, 0, u.y, share.y);
   int column = invert(uEnvChances, row, u.x, share.x);
   vec2 uv = (vec2(column, row) + share) / vec2(size);
-  float turn = 2.0 * PI * (uv.x - 0.5);
+  float turn = 2.0 * PI * (uv.x - 0.5 - uEnvTurn);
   float theta = PI * uv.y;
   return vec3(sin(theta) * sin(turn), sin(theta) * cos(turn), cos(theta));
 }

@@ -1,0 +1,79 @@
+"""A light of one's own, turned, and how the picture is toned."""
+
+from base64 import b64encode
+
+import numpy as np
+from conftest import Explorer, to_linear  # pyright: ignore[reportMissingImports]
+
+SMALL = {"width": 460, "height": 560}
+DROP = """([name, data]) => {
+  const bytes = Uint8Array.from(atob(data), (character) => character.charCodeAt(0));
+  const files = new DataTransfer();
+  files.items.add(new File([bytes], name));
+  const event = { dataTransfer: files, bubbles: true, cancelable: true };
+  document.querySelector(".material").dispatchEvent(new DragEvent("drop", event));
+}"""
+# Radiance's format, pixels as they are: red to the left (-x) of who looks along +y, which is the middle, and blue to the right.
+RED, BLUE = bytes([128, 1, 1, 129]), bytes([1, 1, 128, 129])
+SKY = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 8 +X 16\n" + (RED * 8 + BLUE * 8) * 8
+
+
+def halves(explorer: Explorer) -> np.ndarray:
+    """Mean linear RGB of the left and of the right half of the object."""
+    shown = explorer.drawn()
+    middle = shown.shape[1] // 2
+    linear, inside = to_linear(shown), shown[..., 3] == 255
+    return np.array(
+        [
+            linear[:, side][inside[:, side]].mean(axis=0)
+            for side in (slice(0, middle), slice(middle, None))
+        ]
+    )
+
+
+def test_a_light_of_one_s_own_comes_from_where_it_is_turned_to(explorer: Explorer) -> None:
+    page = explorer.page
+    page.set_viewport_size(SMALL)
+    explorer.open("#space=linear&stops=teflon,chrome&t=0&light=points")
+    explorer.wait_for_picture(8)
+    before = explorer.drawn()
+    page.evaluate(DROP, ["sky.hdr", b64encode(SKY).decode()])
+    page.get_by_text("/ 384 samples").wait_for()
+    assert page.locator("[name=light]").input_value() == "own"
+    explorer.drawn_after(before)
+    explorer.wait_for_picture(8)
+    left, right = halves(explorer)
+    assert left[0] > left[2]
+    assert right[2] > right[0]
+    before = explorer.drawn()
+    page.get_by_label("Turn the light").click()
+    page.locator("[name=turn]").fill("180")
+    explorer.drawn_after(before)
+    explorer.wait_for_picture(8)
+    left, right = halves(explorer)
+    assert left[2] > left[0]
+    assert right[0] > right[2]
+
+
+def test_tones_are_chosen_linked_and_said(explorer: Explorer) -> None:
+    page = explorer.page
+    page.set_viewport_size(SMALL)
+    explorer.open("#space=linear&stops=teflon,chrome&t=0&light=points")
+    explorer.wait_until_settled()
+    before = explorer.drawn()
+    page.get_by_label("Turn the light").click()
+    page.locator("[name=tone]").select_option("agx")
+    explorer.drawn_after(before)
+    page.keyboard.press("Escape")
+    page.locator(".brdf [data-value=albedo]").click()
+    page.wait_for_function(
+        "() => location.hash.includes('tone=agx') && location.hash.includes('plot=albedo')"
+    )
+    page.reload()
+    page.wait_for_selector(".brdf [data-value=albedo][aria-pressed=true]")
+    page.wait_for_function("() => document.title === 'teflon · halfway'")
+    page.get_by_role("button", name="Picture", exact=True).click()
+    page.locator("[name=size]").fill("32")
+    with page.expect_download() as file:
+        page.get_by_role("button", name="Save", exact=True).click()
+    assert file.value.suggested_filename == "teflon-agx.png"
