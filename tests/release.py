@@ -27,7 +27,7 @@ NOT_RUN = r"halfway fetch|merl\.brdflib|library build merl"
 READ_ONLY = (
     'halfway mix "gold-paint=0.7, teflon=0.3" -o elsewhere.binary',
     "halfway check elsewhere.binary",
-    "halfway route teflon chrome -n 2 -o elsewhere --format merl",
+    "halfway route teflon chrome -n 2 -o elsewhere --format merl --space linear --pace uniform",
     "halfway fit builtin:merl-abc:teflon --model gltf -o elsewhere.json",
     "halfway render elsewhere.binary -o elsewhere.png --size 32 --spp 2",
 )
