@@ -6,14 +6,14 @@ RUN := $(UV) run --frozen
 PYTEST := $(RUN) pytest -n 2
 
 .DEFAULT_GOAL := help
-.PHONY: help setup demo test lint viewer chromium bench pictures docs release-check
+.PHONY: help setup demo test lint viewer chromium bench pictures docs release-check lowest
 
 help:           ## this list
 	@grep -hE '^[a-z-]+: .*##|^[a-z-]+:  *##' $(MAKEFILE_LIST) | sed -E 's/:.*## */\t/' | expand -t 14
 
 setup:          ## install what the rest needs into .venv
 	@$(UV) --version >/dev/null 2>&1 || python3 -m pip install --quiet uv || python3 -m pip install --quiet --user --break-system-packages uv
-	@$(UV) sync --frozen --quiet
+	@$(UV) sync --frozen --quiet --compile-bytecode
 
 demo: setup     ## the paper's main run on the built-in library; leaves pictures in demo/
 	$(RUN) halfway demo -o demo
@@ -42,6 +42,9 @@ docs: setup     ## the site, in docs/_build/html; every warning is an error
 
 release-check: setup ## the wheel in an environment of its own: every command of the tutorial
 	$(RUN) python tests/release.py
+
+lowest: setup   ## the tests that touch every dependency, on the lowest versions that are allowed
+	$(RUN) python tests/lowest.py
 
 bench: setup    ## speed, as ratios measured in one run; a table at the end, and in docs/benchmarks.md
 	$(RUN) pytest benchmarks -s -q -o python_files='bench_*.py' -o python_functions='bench_* test_*' -o addopts='--benchmark-columns=median,rounds'

@@ -2,7 +2,9 @@
 
 import pytest
 
+from halfway._display import recipe_png, route_png
 from halfway.library import open_library
+from halfway.look import table_png
 from halfway.recipes import Recipe
 from halfway.space import LinearSpace, Route
 
@@ -13,15 +15,15 @@ def library():
 
 
 def bench_showing_a_table(benchmark, library):
-    benchmark(library.brdf("gold-paint")._repr_png_)
+    benchmark(table_png, library.brdf("gold-paint"))
 
 
 def bench_showing_a_recipe(benchmark, library):
     recipe = Recipe.from_text(library.name, "gold-paint=0.4, teflon=0.3, chrome=0.2, nylon=0.1")
-    benchmark(recipe._repr_png_)
+    benchmark(recipe_png, recipe)
 
 
 def bench_showing_a_route(benchmark, library):
     """Through eight stops: as many materials as a route between two of them meets."""
     space = LinearSpace.of(library)
-    benchmark(Route.through(space, library.names[:8])._repr_png_)
+    benchmark(route_png, Route.through(space, library.names[:8]))

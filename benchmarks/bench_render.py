@@ -11,7 +11,7 @@ from halfway.brdf import tabulate
 from halfway.halfdiff import MERL
 from halfway.library import open_library
 
-SIZE = 512
+SIZE = 256
 SPP = 64
 VIEWS = (0, 20, 45, 70, 85)
 TABLES = "blue-fabric", "gold-paint", "cherry-235"

@@ -381,6 +381,8 @@ def test_report_prints_table_1_and_writes_figures(run, lib, tmp_path):
     document = json.loads((tmp_path / "report" / "report.json").read_text())
     assert [row["n_components"] for row in document["table_1"]] == [3, 5]
     assert set(document["eigenvalues"]) == {"r", "g", "b"}
+    mine = json.loads(run("report", lib, "-k", "1,4", "--json")[1])
+    assert [row["n_components"] for row in mine["table_1"]] == [1, 4]
 
 
 @pytest.mark.parametrize(
@@ -402,6 +404,10 @@ def test_report_prints_table_1_and_writes_figures(run, lib, tmp_path):
             "a route of 1,000,000,000 materials is too long: expected 100,000 or fewer.",
         ),
         (["route", "teflon", "chrome", "-n", "1000000000"], "is too long: expected 100,000"),
+        (
+            ["report", "-k", "3,-1"],
+            "-k '3,-1' is no list of numbers of components: expected such as",
+        ),
         (["mix", "teflon=0.5", "-o", "x.binary"], "sum to 0.5: they must sum to 1"),
         (["mix", "teflon=1", "-o", "x.tiff"], "has the suffix '.tiff', which names no format"),
         (["fit", "teflon", "-o", "x.obj"], "names no format of fitted models: expected .mtlx"),

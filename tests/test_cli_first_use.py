@@ -1,8 +1,10 @@
 """Commands as people write them before they have read anything."""
 
 import json
+import os
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 from strategies import random_tables
@@ -166,3 +168,26 @@ def test_an_answer_that_nobody_takes_is_quiet(where, code, talk):
 def test_the_shell_completes_libraries():
     assert "builtin:merl-abc" in complete_library("builtin:m")
     assert complete_library("mine") == []
+
+
+@pytest.mark.parametrize(
+    ("typed", "expected"),
+    [
+        ("route tungs", "tungsten-carbide"),
+        ("route cherry-235 tungs", "tungsten-carbide"),
+        ("route builtin:merl-sgd cherry-235 tungs", "tungsten-carbide"),
+        ("space --near tungs", "tungsten-carbide"),
+        ("convert builtin:merl-sgd:tungs", "builtin:merl-sgd:tungsten-carbide"),
+    ],
+)
+def test_the_shell_completes_names(typed, expected):
+    words = f"halfway {typed}"
+    asked = {"_HALFWAY_COMPLETE": "complete_zsh", "_TYPER_COMPLETE_ARGS": words}
+    done = subprocess.run(
+        [Path(sys.executable).parent / "halfway"],
+        env={**os.environ, **asked},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert expected in done.stdout.replace("\\", "")  # before colons

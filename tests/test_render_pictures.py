@@ -49,10 +49,10 @@ def test_an_exposure_that_shows_nothing_is_refused_before_anything_is_rendered(t
 
 
 def test_exr_keeps_the_radiance(tmp_path):
-    import mitsuba as mi
-
     image = np.random.default_rng(0).random((4, 5, 3)).astype(np.float32) * 50
     pictures.write(tmp_path / "a.exr", image, exposure=2.0)
+    import mitsuba as mi  # now that it has the right LLVM
+
     assert_array_equal(np.array(mi.Bitmap(str(tmp_path / "a.exr"))), image)
 
 
@@ -85,7 +85,7 @@ def test_an_animation_has_all_its_frames(tmp_path, suffix):
 
 
 def test_a_video_has_all_its_frames_and_an_even_size(tmp_path):
-    av = pytest.importorskip("av", reason="the extra halfway[video] is not installed")
+    av = pytest.importorskip("av", reason="the extra video is not installed")
     path = tmp_path / "a.mp4"
     pictures.animate(path, [grey(v, 33) for v in (0.1, 0.4, 0.9)], fps=10.0)
     with av.open(str(path)) as container:
@@ -120,6 +120,20 @@ def test_a_turntable_is_a_row_of_each_material(tmp_path, two):
     assert said == "2 frames of the teapot scene"
     with Image.open(tmp_path / "around.webp") as animation:
         assert (animation.n_frames, animation.width) == (2, 2 * 24 + 2)
+
+
+def test_a_strip_is_no_linear_picture_which_is_said_before_it_is_rendered(tmp_path, two):
+    path = tmp_path / "two.exr"
+    with pytest.raises(OutputError, match=rf"{path} is for linear pictures: .* --format exr"):
+        write_pictures(path, Unrendered("sphere"), [two])
+    with pytest.raises(OutputError, match=rf"{path} is for linear pictures"):
+        pictures.write(path, pictures.to_8_bit(grey(0.1)))
+    assert not list(tmp_path.iterdir())
+
+
+class Unrendered(Renderer):
+    def picture(self, brdf, **options):  # noqa: ARG002
+        raise AssertionError
 
 
 def test_a_turntable_in_a_folder_goes_on_where_it_stopped(tmp_path, two):

@@ -87,7 +87,7 @@ class MissingExtraError(HalfwayError):
     def __init__(self, what: str, package: str, extra: str) -> None:
         super().__init__(
             f"{what} needs the package {package}, which is not installed: expected the extra {extra!r}. "
-            f'Install it with `pip install "halfway[{extra}]"`.'
+            f"Install it with `pip install {package}`."
         )
 
 

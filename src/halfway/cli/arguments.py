@@ -41,6 +41,16 @@ def parse_t(text: str) -> list[float]:
     return ts
 
 
+def parse_counts(text: str) -> list[int]:
+    """The list of whole numbers from 1 written as ``3,5,15``."""
+    parts = [part.strip() for part in text.split(",")]
+    if not all(part.isdecimal() and int(part) > 0 for part in parts):
+        raise ArgumentError(
+            f"-k {text!r} is no list of numbers of components: expected such as 3,5,15."
+        )
+    return [int(part) for part in parts]
+
+
 def require_length(n: float) -> None:
     """Refuse a route of more materials than memory holds recipes of."""
     if n > LONGEST_ROUTE:

@@ -35,7 +35,11 @@ class Suffix(StrEnum):
 def convert(
     source: Annotated[
         str,
-        typer.Argument(metavar="IN", help="What is one material, or many: a folder, a library."),
+        typer.Argument(
+            metavar="IN",
+            help="What is one material, or many: a folder, a library.",
+            autocompletion=complete_names,
+        ),
     ],
     target: Annotated[
         Path | None,

@@ -118,7 +118,12 @@ class DeviceName(StrEnum):
 # halfway route
 
 Stops = Annotated[
-    list[str], typer.Argument(metavar="[LIB] A B [C...]", help="Two or more materials, by name.")
+    list[str],
+    typer.Argument(
+        metavar="[LIB] A B [C...]",
+        help="Two or more materials, by name.",
+        autocompletion=complete_names,
+    ),
 ]
 Steps = Annotated[int, typer.Option("-n", help="Materials on the route, both ends included.")]
 Ts = Annotated[

@@ -18,6 +18,9 @@ Folder = Annotated[
     str | None,
     typer.Option("--output", "-o", metavar="DIR", help="A folder, or its URL. [default: report]"),
 ]
+Components = Annotated[
+    str, typer.Option("-k", metavar="LIST", help="Numbers of components in Table I.")
+]
 Pairs = Annotated[
     int,
     typer.Option(
@@ -29,6 +32,7 @@ Pairs = Annotated[
 def report(
     lib: Lib = DEFAULT_LIBRARY,
     output: Folder = None,
+    components: Components = "3,5,15,30,36,45",
     pairs: Pairs = 0,
     seed: Annotated[int, typer.Option(help="Of the sample of pairs.")] = 0,
     as_json: Annotated[
@@ -48,6 +52,7 @@ def report(
     \b
     halfway report merl.brdflib -o report
     halfway report merl_nbrdf.zip --pairs 200
+    halfway report -k 1,2,10 --json
     halfway report builtin:synthetic-2000 --dry-run
     """
     from halfway.batch import filling
@@ -57,6 +62,9 @@ def report(
     from halfway.library import open_library
     from halfway.locations import to_location
 
+    from .arguments import parse_counts
+
+    counts = parse_counts(components)
     library = open_library(lib)
     if dry_run:
         _say_plan(library, as_json)
@@ -68,9 +76,9 @@ def report(
             pca = Pca.fit(library, work=work)
             n_pairs = None if pairs < 0 else pairs
             spaces = compare_spaces(library, n_pairs=n_pairs, seed=seed, work=work) if pairs else []
-        report = Report.of(library, pca, spaces=spaces)
+        report = Report.of(library, pca, n_components=counts, spaces=spaces)
         if scratch:
-            write_report(scratch, library, pca, spaces=spaces)
+            write_report(scratch, library, pca, n_components=counts, spaces=spaces)
     if as_json:
         print(json.dumps(report.to_json(), indent=1))
     else:

@@ -95,10 +95,15 @@ def table_row(pca: Pca, n_components: int) -> TableRow:
 
 
 def write_report(
-    folder: Location, library: Library, pca: Pca, *, spaces: Sequence[Mapping[str, Any]] = ()
+    folder: Location,
+    library: Library,
+    pca: Pca,
+    *,
+    n_components: Sequence[int] = N_COMPONENTS,
+    spaces: Sequence[Mapping[str, Any]] = (),
 ) -> Report:
     """Write report.json and the figures into ``folder``; ``spaces`` are those of `compare_spaces`."""
-    report = Report.of(library, pca, spaces=spaces)
+    report = Report.of(library, pca, n_components=n_components, spaces=spaces)
     with replacing(folder / "report.json") as temporary:
         temporary.write_text(json.dumps(report.to_json(), indent=1))
     label = Path(library.name).name

@@ -5,7 +5,7 @@
     explorer = Explorer(stops=["cherry-235", "gold-paint"])
     explorer
 
-It takes the extra ``notebook`` (``pip install "halfway[notebook]"``). Tables, recipes and routes show themselves as lit
+It takes the extra ``notebook`` (the package ``anywidget``). Tables, recipes and routes show themselves as lit
 spheres without it.
 """
 

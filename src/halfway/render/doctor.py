@@ -60,7 +60,7 @@ def doctor() -> list[Finding]:
         Finding(
             "video writer",
             _version("av") if find_spec("av") else None,
-            "No .mp4; .webp and .gif work. Run pip install 'halfway[video]'.",
+            "No .mp4; .webp and .gif work. Run pip install av.",
         ),
     ]
 

@@ -62,11 +62,27 @@ def write(path: Path | str, image: np.ndarray, *, exposure: float = 0.0) -> None
     """
     path = Path(path)
     suffix = suffix_of(path, WRITTEN, what="kind of picture")
+    if image.dtype == np.uint8:
+        require_8_bit(path)
     with replacing(path) as temporary:
         if suffix == ".exr":
             _write_exr(temporary, image)
         else:
             Image.fromarray(to_8_bit(image, exposure=exposure)).save(temporary, quality=92)
+
+
+def require_8_bit(path: Path) -> None:
+    """Refuse a file of linear radiance for what has labels: strips and sheets.
+
+    Raises
+    ------
+    OutputError
+        Says what is expected.
+    """
+    if path.suffix.lower() == ".exr":
+        raise OutputError(
+            f"{path} is for linear pictures: strips and sheets are 8-bit. Write .png, or a folder with --format exr."
+        )
 
 
 def strip(
@@ -101,7 +117,7 @@ def sheet(
 def animate(
     path: Path | str, images: Iterable[np.ndarray], *, fps: float = 12, exposure: float = 0.0
 ) -> None:
-    """Write pictures as an animation: ``.webp`` or ``.gif``, which repeat, or ``.mp4`` (H.264; needs ``halfway[video]``).
+    """Write pictures as an animation: ``.webp`` or ``.gif``, which repeat, or ``.mp4`` (H.264; needs the extra ``video``).
 
     Raises
     ------
@@ -137,7 +153,7 @@ def _write_mp4(path: Path, frames: Iterable[np.ndarray], fps: float) -> None:
     except ImportError as error:
         raise OutputError(
             f"{path.suffix} needs the package av, which is not installed: "
-            "run pip install 'halfway[video]', or write .webp or .gif."
+            "run pip install av, or write .webp or .gif."
         ) from error
     first, *rest = frames
     height, width = (size // 2 * 2 for size in first.shape[:2])
@@ -155,10 +171,6 @@ def _write_exr(path: Path, image: np.ndarray) -> None:
     from .variant import load_mitsuba
 
     mi = load_mitsuba()
-    if image.dtype == np.uint8:
-        raise OutputError(
-            f"{path.name} is for linear pictures: strips and sheets are 8-bit, write them as .png."
-        )
     mi.Bitmap(np.ascontiguousarray(image, np.float32)).write(str(path))
 
 

@@ -174,6 +174,8 @@ def _write_sheet(
 ) -> int:
     """Write one picture of all, row by row, or, of one row, as a sheet about as wide as high; gives how many it is made of."""
     shots = [shot for row in rows for shot in row]
+    if len(shots) > 1:
+        pictures.require_8_bit(path)
     images = [shot.picture() for shot in work.track(shots, "Pictures", len(shots))]
     if len(images) == 1:
         pictures.write(path, images[0], exposure=exposure)
