@@ -12,7 +12,7 @@ import pytest
 from fastapi.testclient import TestClient
 from patience import PATIENCE
 
-from halfway.errors import HalfwayError, LibraryError, SpaceError
+from halfway.errors import HalfwayError, LibraryError, RecipeError, SpaceError
 from halfway.library import Library
 from halfway.notebook import Explorer
 from halfway.notebook.messages import Answerer
@@ -50,10 +50,12 @@ def test_at_a_free_place_the_recipe_is_that_of_the_space(
     explorer: Explorer, answers: Answers
 ) -> None:
     explorer.space = "anchored"
+    explorer.blend = "lobes"
     middle = answers.space("anchored").points.mean(axis=0).tolist()  # pyright: ignore
     explorer.point = middle
     place = answers.position(Point(space="anchored", point=middle))
-    assert explorer.recipe.to_json() == place.recipe.model_dump()
+    assert explorer.recipe.blend == place.recipe.blend == "lobes"
+    assert explorer.recipe.to_json()["weights"] == pytest.approx(place.recipe.weights)
     # Along the route again.
     explorer.t = 0.0
     assert explorer.point is None
@@ -66,6 +68,7 @@ def test_at_a_free_place_the_recipe_is_that_of_the_space(
         ("t", 1.5, SpaceError, "t = 1.5 is off the route: expected 0"),
         ("space", "outer", SpaceError, "there is no space 'outer': expected one of anchored"),
         ("pace", "brisk", SpaceError, "there is no pace 'brisk': expected one of perceptual"),
+        ("blend", "median", RecipeError, "there is no blend 'median': expected linear"),
         ("stops", ["material-0"], SpaceError, "a route with 1 stop goes nowhere"),
         ("stops", ["material-0", "materiel-1"], LibraryError, "did you mean material-1"),
     ],

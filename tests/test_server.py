@@ -22,7 +22,8 @@ from halfway.formats import write_merl
 from halfway.formats.rgl_writer import Resolution
 from halfway.halfdiff import Grid
 from halfway.library import ProceduralLibrary
-from halfway.recipes import Recipe, mix
+from halfway.look.small_tables import SmallTables
+from halfway.recipes import Blend, Recipe, mix
 from halfway.server import Page, create_app, taking
 from halfway.server.blocks import Block
 from halfway.server.guard import MAX_BODY
@@ -182,10 +183,33 @@ def test_what_is_furthest_in_any_direction_is_a_corner_of_the_hull(client: TestC
     rng = np.random.default_rng(5)
     for space in ("anchored", "paper"):
         for embedding in client.get(f"/api/spaces/{space}").json()["embeddings"]:
-            points = np.array(embedding["points"])
+            # The first three coordinates are looked at.
+            points = np.array(embedding["points"])[:, :3]
             directions = rng.normal(size=(points.shape[1], 200)) / np.ptp(points, axis=0)[:, None]
             corners = {i for edge in embedding["edges"] for i in edge}
             assert set((points @ directions).argmax(axis=0)) <= corners
+
+
+@pytest.mark.parametrize("blend", Blend)
+def test_a_space_is_answered_for_in_the_blend_that_is_named(
+    client: TestClient, small_library: ProceduralLibrary, blend: Blend
+) -> None:
+    space = make_space("anchored", small_library, blend=blend)
+    view = client.get(f"/api/spaces/anchored?blend={blend}").json()
+    points = np.hstack([embedding["points"] for embedding in view["embeddings"]])
+    assert_allclose(points, space.points, rtol=1e-6, atol=1e-9)
+    leg = client.get(f"/api/legs/anchored/material-0/material-4?blend={blend}").json()
+    assert_allclose(leg["knots"], Route.through(space, ["material-0", "material-4"]).way.knots)
+    point = {"space": "anchored", "blend": blend, "point": space.points[:6].mean(axis=0).tolist()}
+    recipe = client.post("/api/position", json=point).json()["recipe"]
+    assert recipe["blend"] == blend
+
+
+def test_without_a_blend_a_space_is_in_its_usual_one(client: TestClient) -> None:
+    for space in client.get("/api/library").json()["spaces"]:
+        view = client.get(f"/api/spaces/{space['name']}").json()
+        named = client.get(f"/api/spaces/{space['name']}?blend={space['usual_blend']}").json()
+        assert view == named
 
 
 def test_the_point_of_a_material_is_that_material(client: TestClient) -> None:
@@ -230,7 +254,76 @@ def test_the_linear_space_has_no_points_to_go_to(client: TestClient) -> None:
     assert answer.status_code == 400
 
 
+# Mixes
+
+
+def recipe_of(blend: str) -> dict[str, Any]:
+    weights = {"material-1": 0.25, "material-2": 0.5, "material-5": 0.25}
+    return {"library": "small", "blend": blend, "weights": weights}
+
+
+@pytest.mark.parametrize("blend", Blend)
+def test_the_table_of_a_recipe_is_the_mixer_s_to_half_precision(
+    client: TestClient, small_library: ProceduralLibrary, blend: Blend
+) -> None:
+    answer = client.post("/api/mix", json=recipe_of(blend))
+    block = halfs(answer.content, answer.headers["halfway-shape"])
+    scale = [float(x) for x in answer.headers["halfway-scale"].split(",")]
+    mixed = mix(small_library, Recipe.from_json(recipe_of(blend)))
+    table = np.moveaxis(mixed.values, 0, -1)
+    measured = ~np.isnan(table).any(axis=-1)
+    assert_array_equal(block[..., 3], measured)
+    assert_allclose(block[measured][:, :3] * scale, table[measured], rtol=2**-11, atol=2**-25)
+
+
+def test_a_small_table_of_a_recipe_has_the_small_grid_and_its_values(
+    client: TestClient, small_library: ProceduralLibrary
+) -> None:
+    answer = client.post("/api/mix?small=true", json=recipe_of("lobes"))
+    block = halfs(answer.content, answer.headers["halfway-shape"])
+    axes = client.get("/api/library").json()["small_grid"]
+    assert block.shape == (*(axis["size"] for axis in axes), 4)
+    scale = [float(x) for x in answer.headers["halfway-scale"].split(",")]
+    weights = np.zeros((3, 1, len(small_library)))
+    weights[..., [1, 2, 5]] = 0.25, 0.5, 0.25
+    (table,) = SmallTables(small_library).mix(weights, Blend.LOBES).swapaxes(0, 1)
+    got = np.moveaxis(block[..., :3] * scale, -1, 0).reshape(3, -1)
+    assert_allclose(got, table, rtol=2**-11, atol=2**-25)
+
+
+def test_pictures_of_recipes_are_those_of_the_pacing(client: TestClient) -> None:
+    everyone = client.get("/api/thumbnails")
+    all_pictures = halfs(everyone.content, everyone.headers["halfway-shape"]).astype(float)
+    alone = {"library": "small", "weights": {"material-3": 1}}
+    answer = client.post("/api/thumbnails", json=[alone, recipe_of("linear"), recipe_of("lobes")])
+    own, linear, lobes = halfs(answer.content, answer.headers["halfway-shape"]).astype(float)
+    assert answer.headers["halfway-scale"] == everyone.headers["halfway-scale"] == "1,1,1"
+    assert_allclose(own, all_pictures[3], rtol=2**-10, atol=2**-24)
+    shares = np.array([0.25, 0.5, 0.25])
+    summed = np.tensordot(shares, all_pictures[[1, 2, 5]], axes=1)
+    assert_allclose(linear, summed, rtol=2**-9, atol=2**-23)
+    assert np.abs(lobes - linear).max() > 2**-6
+    assert client.post("/api/thumbnails", json=[]).status_code == 400
+
+
+def test_an_unknown_blend_is_refused(client: TestClient) -> None:
+    for answer in (
+        client.post("/api/mix", json=recipe_of("median")),
+        client.get("/api/spaces/paper?blend=median"),
+    ):
+        assert answer.status_code == 400
+        assert answer.json()["error"].startswith("there is no blend 'median': expected linear")
+
+
 # Taking a material home
+
+
+def test_a_downloaded_file_is_mixed_as_its_recipe_says(
+    client: TestClient, small_library: ProceduralLibrary, tmp_path: Path
+) -> None:
+    answer = client.post("/api/export/merl", json=recipe_of("lobes"))
+    write_merl(tmp_path / "mixed.binary", mix(small_library, Recipe.from_json(recipe_of("lobes"))))
+    assert answer.content == (tmp_path / "mixed.binary").read_bytes()
 
 
 def test_the_downloaded_file_is_the_written_one(

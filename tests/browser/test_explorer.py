@@ -159,6 +159,7 @@ def test_another_body_colour_leaves_the_route_and_comes_back(explorer: Explorer)
 
 def test_the_present_material_is_dragged_through_the_space(explorer: Explorer) -> None:
     explorer.open("#space=anchored&stops=cherry-235,teflon&t=0.5&light=points")
+    explorer.wait_for_picture()
     explorer.page.get_by_role("button", name="Body colour").click()
     marker = explorer.page.locator(".here").bounding_box()
     assert marker is not None
@@ -173,6 +174,7 @@ def test_the_present_material_is_dragged_through_the_space(explorer: Explorer) -
 def test_what_is_let_go_of_beside_the_space_is_let_go_of(explorer: Explorer) -> None:
     explorer.page.set_viewport_size({"width": 1440, "height": 900})
     explorer.open("#space=anchored&stops=cherry-235,teflon&t=0.5&light=points")
+    explorer.wait_for_picture()
     explorer.page.get_by_role("button", name="Body colour").click()
     marker = explorer.page.locator(".here").bounding_box()
     assert marker is not None

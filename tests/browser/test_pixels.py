@@ -13,10 +13,12 @@ from conftest import (  # pyright: ignore[reportMissingImports]
     squares,
     to_linear,
 )
+from numpy.testing import assert_array_equal
 
 from halfway.brdf import TabularBrdf
 from halfway.brdf.quadrature import hemisphere
 from halfway.library import ProceduralLibrary
+from halfway.recipes import mix
 from halfway.render.pictures import to_8_bit
 from halfway.render.scenes import SCENES, Scene
 from halfway.render.studio import studio
@@ -148,12 +150,34 @@ def difference_from_mitsuba(shown: Picture, scene: Scene, brdf: TabularBrdf, spp
 @pytest.mark.parametrize("name", MATERIALS)
 def test_three_lights(explorer: Explorer, library: ProceduralLibrary, name: str) -> None:
     shown = settled(explorer, name, "points")
+    brdf = library.brdf(name)
+    agrees_under_points(shown, brdf)
+    assert difference_from_mitsuba(shown, SCENE, brdf, spp=32) < 0.015
+
+
+def test_a_mix_of_lobes_under_three_lights(explorer: Explorer, library: ProceduralLibrary) -> None:
+    explorer.page.set_viewport_size(SIZE)
+    explorer.open(
+        "#space=linear&blend=lobes&pace=uniform&stops=pink-felt,gold-paint&t=0.375&light=points&exposure=-1"
+    )
+    explorer.wait_until_settled()
+    shown = Picture(explorer.drawn())
+    weights = {"pink-felt": 0.625, "gold-paint": 0.375}
+    agrees_under_points(shown, mix(library, weights, blend="lobes"))
+    # While it is dragged it is drawn from a coarser table: the same to the eye, and then the same again.
+    explorer.set_t(0.5)
+    explorer.set_t(0.375)
+    explorer.wait_until_settled()
+    assert_array_equal(explorer.drawn(), shown.bytes)
+
+
+def agrees_under_points(shown: Picture, brdf: TabularBrdf) -> None:
+    """The page's picture, its exposure halved, is that of quadrature."""
     pixels = places(shown, 300, seed=1)
     offsets = (np.arange(N_POINTS) + 0.5) / N_POINTS
     rows = pixels[:, 0, None, None] + offsets[:, None]
     columns = pixels[:, 1, None, None] + offsets
     at, normal, wo = surface(shown, *np.broadcast_arrays(rows, columns))
-    brdf = library.brdf(name)
     radiance = under_points(brdf, at, normal, wo)
     radiance /= 2
     expected = to_8_bit(radiance.mean(axis=(1, 2))).astype(int)
@@ -163,7 +187,6 @@ def test_three_lights(explorer: Explorer, library: ProceduralLibrary, name: str)
     assert even.sum() > 200
     difference = np.abs(shown.bytes[tuple(pixels.T)][:, :3].astype(int) - expected)[even]
     assert difference.max() <= LEVELS
-    assert difference_from_mitsuba(shown, SCENE, brdf, spp=32) < 0.015
 
 
 @pytest.mark.parametrize("name", MATERIALS)

@@ -51,6 +51,7 @@ def compare(explorer: Explorer) -> None:
 # What is done where, and a link to (nearly) what is to be seen then.
 CHANGES = [
     (set_t, BEFORE, "cherry-235,teflon&t=0.95"),
+    (set_t, BEFORE + "&blend=lobes", "cherry-235,teflon&t=0.95&blend=lobes"),
     (set_stop, BEFORE, "yellow-matte-plastic,teflon&t=0"),
     (set_exposure, BEFORE, BEFORE + "&exposure=3"),
     (compare, BEFORE, BEFORE + "&compare=stop:teflon"),

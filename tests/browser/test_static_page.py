@@ -6,6 +6,7 @@ from collections.abc import Generator
 from functools import partial
 from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
+from typing import Any
 
 import pytest
 from conftest import Explorer  # pyright: ignore[reportMissingImports]
@@ -22,6 +23,8 @@ MATERIALS = (
     "blue-fabric", "cherry-235", "chrome", "gold-paint", "green-plastic", "pink-felt", "red-metallic-paint", "teflon",
 )  # fmt: skip
 PAIR = "#space=anchored&pace=perceptual&stops=teflon,cherry-235"
+
+OF_A_FOLDER: dict[str, Any] = {"blend": "linear", "n_components": 3}
 
 
 class QuietHandler(SimpleHTTPRequestHandler):
@@ -70,7 +73,7 @@ def test_the_slider_goes_along_pythons_route(explorer: Explorer, subset: Subset)
     explorer.page.wait_for_selector(".recipe .name")
     assert explorer.recipe == ["teflon"]
     explorer.set_t(0.25)
-    recipe = route(subset, *stops).recipe(0.25)
+    recipe = route(subset, *stops, **OF_A_FOLDER).recipe(0.25)
     with explorer.page.expect_download() as file:
         explorer.page.get_by_role("button", name="Recipe", exact=True).click()
     shown = Recipe.from_json(json.loads(file.value.path().read_text()))
@@ -81,7 +84,7 @@ def test_the_slider_goes_along_pythons_route(explorer: Explorer, subset: Subset)
 
 
 def test_a_free_point_needs_no_server(explorer: Explorer, subset: Subset) -> None:
-    space = make_space("anchored", subset)
+    space = make_space("anchored", subset, **OF_A_FOLDER)
     # The middle of all materials, in the coordinates of the space.
     point = space.points.mean(axis=0)
     explorer.open(f"{PAIR}&point={','.join(map(str, point.tolist()))}")

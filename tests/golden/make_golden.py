@@ -159,15 +159,15 @@ def _points() -> dict[str, Any]:
     """Charts as they are written, and what the server says of points inside and outside."""
     from halfway.server.explorer import Explorer
     from halfway.server.schema import Point
-    from halfway.server.static import charts_file
+    from halfway.server.static import BLEND, charts_file, small_space
 
-    explorer = Explorer(_library(10, seed=5))
+    explorer = Explorer(_library(10, seed=5), make=small_space)
     rng = np.random.default_rng(5)
     spaces, points = {}, []
     for name in ("anchored", "paper"):
-        space = explorer.space(name)
+        space = explorer.space(name, BLEND)
         spaces[name] = {
-            "view": explorer.space_view(name).model_dump(mode="json"),
+            "view": explorer.space_view(name, BLEND).model_dump(mode="json"),
             "charts": charts_file(space).model_dump(mode="json")["charts"],
         }
         middle = space.points.mean(axis=0)
@@ -176,6 +176,7 @@ def _points() -> dict[str, Any]:
             for reach in (1.0, 3.0):
                 point = Point(
                     space=name,
+                    blend=BLEND,
                     point=(middle + reach * (weights @ space.points - middle)).tolist(),
                 )
                 answer = explorer.position(point).model_dump(mode="json")

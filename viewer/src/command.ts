@@ -8,6 +8,7 @@ type Shown = Pick<
   | "held"
   | "library"
   | "space"
+  | "blend"
   | "pace"
   | "stops"
   | "t"
@@ -22,8 +23,8 @@ type Shown = Pick<
 
 export function toCommand(shown: Shown): string {
   const name = materialName(shown);
-  const { held, library, space, pace, stops, t, point } = shown;
-  const where = `--space ${space}`;
+  const { held, library, space, blend, pace, stops, t, point } = shown;
+  const where = `--space ${space} --blend ${blend}`;
   const source = quoted(library.address);
   const file = `${name}.binary`;
   if (held) return `halfway mix ${quoted(`${name}.json`)} -o ${quoted(file)} && ${render(shown, file, name)}`;

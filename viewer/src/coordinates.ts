@@ -24,15 +24,15 @@ export function mixedPoint(
   return sum;
 }
 
-/** A point with the coordinates of one embedding replaced. */
+/** A point with the first coordinates of one embedding replaced. */
 export function withCoordinates(
   view: SpaceView,
   point: readonly number[],
   embedding: string,
   coordinates: readonly number[],
 ): number[] {
-  const [from, to] = rangeOf(view, embedding);
-  return [...point.slice(0, from), ...coordinates, ...point.slice(to)];
+  const [from] = rangeOf(view, embedding);
+  return [...point.slice(0, from), ...coordinates, ...point.slice(from + coordinates.length)];
 }
 
 /** The coordinates of one embedding in a point. */

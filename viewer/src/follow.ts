@@ -1,10 +1,25 @@
 // What runs beside the panels: the client is asked for what the state needs, the link follows it, and time goes on.
 
+import { LINEAR } from "./blend";
+import type { DrawableGrid } from "./brdf/grid";
 import type { Context } from "./context";
+import { MixedTable } from "./mixed";
 import { toHash } from "./permalink";
+import { type Ingredient, only, toDocument } from "./recipe";
+import { mixedName } from "./render/tables";
 import { join, type Route, reversed } from "./route";
 import { toText } from "./shortlist";
-import { comparedSpace, LINKED, type Panel, type State } from "./state";
+import {
+  blendOf,
+  comparedSpace,
+  DRAWN,
+  LINKED,
+  type MixedKey,
+  otherBlendOf,
+  type Panel,
+  type State,
+  usualBlend,
+} from "./state";
 import { shortName } from "./title";
 import { comingUp, shownNames } from "./wanted";
 
@@ -15,6 +30,7 @@ export function follow(context: Context): void {
   fetchAtPoint(context);
   fetchSpaces(context);
   fetchTables(context);
+  fetchMixes(context);
   keepLink(context);
   keepShortlist(context);
   play(context);
@@ -37,11 +53,12 @@ function fetchPictures({ client, store, actions, thumbnails, root }: Context): v
 function fetchRoutes(context: Context): void {
   const { store, actions } = context;
   let shown: string | null = null;
-  latest(context, "route", "route", ["space", "pace", "stops"], async (state, running) => {
+  latest(context, "route", "route", ["space", "blend", "pace", "stops"], async (state, running) => {
     store.set({ behind: shown });
-    const route = await fetchRoute(context, state.space, state, running);
+    const route = await fetchRoute(context, state.space, state.blend, state, running);
     if (running.aborted) return;
-    shown = `${state.stops.join(" to ")}, ${state.space}`;
+    const blend = state.blend === usualBlend(state.library, state.space) ? "" : `, ${state.blend}`;
+    shown = `${state.stops.join(" to ")}, ${state.space}${blend}`;
     store.set({ behind: null });
     actions.setRoute(route);
   });
@@ -51,21 +68,23 @@ function fetchRoutes(context: Context): void {
 async function fetchRoute(
   { client, names }: Context,
   space: string,
+  blend: string,
   { pace, stops }: State,
   running: AbortSignal,
 ): Promise<Route> {
   const leg = async (stop: string, i: number) => {
     const start = stops[i]!;
-    if (names.indexOf(start) < names.indexOf(stop)) return client.leg(space, start, stop, running);
-    return reversed(await client.leg(space, stop, start, running));
+    if (names.indexOf(start) < names.indexOf(stop)) return client.leg(space, blend, start, stop, running);
+    return reversed(await client.leg(space, blend, stop, start, running));
   };
   // A browser asks few questions at once: one, while the space that they all need is being computed.
   const [first, ...others] = stops.slice(1);
   const legs = [await leg(first!, 0)];
-  return join(legs.concat(await Promise.all(others.map((stop, i) => leg(stop, i + 1)))), pace, names);
+  const all = legs.concat(await Promise.all(others.map((stop, i) => leg(stop, i + 1))));
+  return join(all, pace, names, blend);
 }
 
-/** The way of the compared space through the same stops. */
+/** The way of the compared space through the same stops, in the blend that is usual there. */
 function fetchOtherRoutes(context: Context): void {
   const { actions } = context;
   latest(context, "route", "compared route", ["compare", "pace", "stops"], async (state, running) => {
@@ -74,7 +93,8 @@ function fetchOtherRoutes(context: Context): void {
       actions.compareWith(state.compare);
       return;
     }
-    const route = await fetchRoute(context, space, state, running);
+    const blend = usualBlend(state.library, space);
+    const route = await fetchRoute(context, space, blend, state, running);
     if (!running.aborted) actions.setOtherRoute(route);
   });
 }
@@ -82,16 +102,16 @@ function fetchOtherRoutes(context: Context): void {
 /** The material at a free point. */
 function fetchAtPoint(context: Context): void {
   const { client, actions } = context;
-  latest(context, "space", "point", ["point"], async ({ space, point }, running) => {
-    if (point !== null) actions.setAtPoint(await client.at(space, point, running));
+  latest(context, "space", "point", ["point"], async ({ space, blend, point }, running) => {
+    if (point !== null) actions.setAtPoint(await client.at(space, blend, point, running));
   });
 }
 
 /** The space to look at. */
 function fetchSpaces(context: Context): void {
   const { client, store } = context;
-  latest(context, "space", "space", ["space"], async ({ space }, running) => {
-    const view = await client.spaceView(space);
+  latest(context, "space", "space", ["space", "blend"], async ({ space, blend }, running) => {
+    const view = await client.spaceView(space, blend);
     if (!running.aborted) store.set({ view });
   });
 }
@@ -102,9 +122,41 @@ function fetchTables({ tables, store, actions }: Context): void {
     store.set({ arrived: store.get().arrived + 1 });
     actions.say("material", `table ${name}`, problem);
   };
-  store.watch(["recipe", "otherRecipe"], (state) =>
-    tables.want(shownNames(state), state.recipe.length ? comingUp(state) : []),
-  );
+  store.watch(DRAWN, (state) => tables.want(shownNames(state), state.recipe.length ? comingUp(state) : []));
+}
+
+/** Tables of what is shown where pictures do not mix; each is a material of its own. */
+function fetchMixes(context: Context): void {
+  const { store } = context;
+  const own = mixedTable(context, "mixed");
+  const other = mixedTable(context, "otherMixed");
+  store.watch(["recipe", "route", "otherRecipe", "otherRoute"], (state) => {
+    const document = (recipe: readonly Ingredient[], blend: string) =>
+      recipe.length === 0 || blend === LINEAR ? null : toDocument(state.library.name, recipe, blend);
+    own.want(document(state.recipe, blendOf(state)));
+    other.want(document(state.otherRecipe, otherBlendOf(state)));
+  });
+}
+
+function mixedTable(context: Context, key: MixedKey): MixedTable {
+  const { client, store, actions, tables } = context;
+  const { grid, small_grid: smallGrid } = store.get().library;
+  let number = 0;
+  return new MixedTable({
+    table: client.mixed,
+    onTable: ({ halfs, scale }, small) => {
+      // The full table is the same mix as the small one before it.
+      if (small) number++;
+      const name = mixedName(`${key} ${number}`, small);
+      tables.put({ name, grid: (small ? smallGrid : grid) as unknown as DrawableGrid, halfs, scale });
+      store.set({ [key]: only(name), arrived: store.get().arrived + 1 });
+    },
+    onBehind: (behind) => {
+      const others = store.get().mixing.filter((each) => each !== key);
+      store.set({ mixing: behind ? [...others, key] : others });
+    },
+    onProblem: (problem) => actions.say("material", key, problem),
+  });
 }
 
 /** Ask whenever one of the fields changes; the question before is taken back, and a failure is said. */

@@ -72,7 +72,7 @@ function show(
   const context: Context = {
     ...{ root, client, options, store, names, signal: gone.signal },
     actions: new Actions(store),
-    thumbnails: new Thumbnails(names),
+    thumbnails: new Thumbnails(names, library.name, client.thumbnailsOf),
     tables: new Tables(client, drawable(library)),
     lights: new Lights(environment),
   };

@@ -12,6 +12,7 @@ export function toHash(linked: Linked): string {
   const { azimuth, elevation, zoom } = linked.orbit;
   const fields: Record<keyof Linked, string> = {
     space: linked.space,
+    blend: linked.blend,
     pace: linked.pace,
     stops: linked.stops.join(","),
     t: short(linked.t, 4),
@@ -52,6 +53,7 @@ export function fromHash(hash: string, library: LibrarySummary): Partial<Linked>
   const point = list("point").map(Number.parseFloat);
   const sensible = {
     space: oneOf("space", spaces),
+    blend: oneOf("blend", library.blends),
     pace: oneOf("pace", library.paces),
     stops: distinct.length >= 2 ? distinct : undefined,
     t: number("t", 0, 1),

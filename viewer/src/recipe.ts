@@ -1,6 +1,7 @@
 // Recipes: materials and their weights, in each channel.
 
 import type { RecipeDocument } from "./api/schema";
+import { LINEAR } from "./blend";
 
 export const CHANNELS = ["r", "g", "b"] as const;
 
@@ -11,14 +12,18 @@ export interface Ingredient {
 }
 
 /** The JSON document, as `halfway mix` reads it; one map of weights where the channels are the same. */
-export function toDocument(library: string, recipe: readonly Ingredient[]): RecipeDocument {
+export function toDocument(
+  library: string,
+  recipe: readonly Ingredient[],
+  blend: string = LINEAR,
+): RecipeDocument {
   const [r, g, b] = CHANNELS.map((_, c) =>
     Object.fromEntries(
       recipe.filter(({ weight }) => weight[c]! > 0).map(({ name, weight }) => [name, weight[c]!]),
     ),
   );
   const same = recipe.every(({ weight: [x, y, z] }) => x === y && y === z);
-  return { library, weights: same ? r! : { r: r!, g: g!, b: b! } };
+  return { library, blend, weights: same ? r! : { r: r!, g: g!, b: b! } };
 }
 
 export function fromDocument({ weights }: RecipeDocument): Ingredient[] {

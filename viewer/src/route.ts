@@ -4,11 +4,14 @@
 // others', at a pace (halfway.space). The page asks for legs and for nothing else, whoever answers.
 
 import type { LegView, WeightTable } from "./api/schema";
+import { LINEAR } from "./blend";
 import { sum } from "./numbers";
 import { CHANNELS, type Ingredient } from "./recipe";
 
 /** Weights at knots, between which they are linear in t. */
 export interface Route {
+  /** How its recipes are mixed. */
+  readonly blend: string;
   readonly names: readonly string[];
   readonly knots: readonly number[];
   readonly weights: WeightTable;
@@ -19,7 +22,12 @@ export interface Route {
 }
 
 /** The route along `legs` at a pace; `order` has all materials. */
-export function join(legs: readonly LegView[], pace: string, order: readonly string[]): Route {
+export function join(
+  legs: readonly LegView[],
+  pace: string,
+  order: readonly string[],
+  blend: string = LINEAR,
+): Route {
   const used = new Set(legs.flatMap(({ names }) => names));
   const names = order.filter((name) => used.has(name));
   const paced = legs.map((leg) => atPace(leg, pace));
@@ -39,7 +47,7 @@ export function join(legs: readonly LegView[], pace: string, order: readonly str
     }),
   );
   stops[legs.length] = knots[knots.length - 1] = 1;
-  return { names, knots, weights, stops, crossings: crossings(knots, weights) };
+  return { blend, names, knots, weights, stops, crossings: crossings(knots, weights) };
 }
 
 /** The same way back. */

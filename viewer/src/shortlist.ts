@@ -4,6 +4,7 @@
 
 import { Problem } from "./api/client";
 import type { LibrarySummary, RecipeDocument } from "./api/schema";
+import { LINEAR } from "./blend";
 import { fromDocument, type Ingredient, namesIn } from "./recipe";
 
 export interface Kept {
@@ -56,16 +57,17 @@ function parsed(text: string, file: string) {
 }
 
 function checked(recipe: unknown, file: string, library: LibrarySummary): RecipeDocument {
-  const document = Object(recipe) as RecipeDocument & { readonly blend?: string };
+  // Without a blend it is linear, as in Python.
+  const document: RecipeDocument = { blend: LINEAR, ...Object(recipe) };
   if (typeof document.weights !== "object" || document.weights === null)
     throw new Problem(`${file} has no weights: expected a recipe, or a shortlist that this page saved.`);
   if (document.library !== library.name)
     throw new Problem(
       `${file} is of the library ${document.library}, and this is ${library.name}: open that one with \`halfway view\`.`,
     );
-  if (document.blend && document.blend !== "linear")
+  if (!library.blends.includes(document.blend))
     throw new Problem(
-      `${file} blends by ${document.blend}: the page draws linear blends. \`halfway render\` draws it.`,
+      `${file} blends by ${document.blend}: this page draws ${library.blends.join(", ")}. \`halfway render\` draws it.`,
     );
   return document;
 }

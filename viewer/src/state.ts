@@ -2,6 +2,7 @@
 
 import type { Waiting } from "./api/patient";
 import type { LibrarySummary, PositionView, SpaceView } from "./api/schema";
+import { LINEAR } from "./blend";
 import { clamp } from "./numbers";
 import { fromDocument, type Ingredient, only } from "./recipe";
 import { type Route, recipeAt } from "./route";
@@ -26,6 +27,8 @@ export interface Notice {
 export interface State extends View {
   readonly library: LibrarySummary;
   readonly space: string;
+  /** How the recipes of the space are mixed. */
+  readonly blend: string;
   readonly pace: string;
   readonly stops: readonly string[];
   /** The stop that the next chosen material replaces; `stops.length` adds one. */
@@ -53,6 +56,11 @@ export interface State extends View {
   readonly view: SpaceView | null;
   readonly route: Route | null;
   readonly recipe: readonly Ingredient[];
+  /** Where pictures do not mix: the recipe's table that came last, as a material of its own. */
+  readonly mixed: readonly Ingredient[];
+  readonly otherMixed: readonly Ingredient[];
+  /** Those of the two that are not the full table of what is to be seen. */
+  readonly mixing: readonly MixedKey[];
   /** A free point of the space, instead of one on the route; null on the route. */
   readonly point: readonly number[] | null;
   /** What the server says of it. */
@@ -82,12 +90,14 @@ export interface State extends View {
   readonly future: readonly Whereabouts[];
 }
 
+export type MixedKey = "mixed" | "otherMixed";
+
 /** Where a person is in the library's spaces, but for t: what undo goes back to. */
-export type Whereabouts = Pick<State, "space" | "pace" | "stops" | "point">;
+export type Whereabouts = Pick<State, "space" | "blend" | "pace" | "stops" | "point">;
 
 /** What a link carries. */
 // biome-ignore format: it is one list.
-export const LINKED = ["space", "pace", "stops", "t", "point", "compare", "shape", "light", "turn", "exposure", "tone", "orbit", "split", "map", "plot"] as const;
+export const LINKED = ["space", "blend", "pace", "stops", "t", "point", "compare", "shape", "light", "turn", "exposure", "tone", "orbit", "split", "map", "plot"] as const;
 export type Linked = Pick<State, (typeof LINKED)[number]>;
 
 const MAX_PAST = 100;
@@ -101,9 +111,11 @@ export const LINK = "link";
 
 export function createState(library: LibrarySummary, linked: Partial<Linked>, theme: Theme): Store<State> {
   const stops = linked.stops ?? defaultStops(library);
+  const space = linked.space ?? library.spaces[0]?.name ?? "";
   return createStore<State>({
     library,
-    space: library.spaces[0]?.name ?? "",
+    space,
+    blend: usualBlend(library, space),
     pace: library.paces[0] ?? "",
     t: 0.5,
     shape: "sphere",
@@ -132,6 +144,9 @@ export function createState(library: LibrarySummary, linked: Partial<Linked>, th
     view: null,
     route: null,
     recipe: [],
+    mixed: [],
+    otherMixed: [],
+    mixing: [],
     atPoint: null,
     kept: [],
     held: null,
@@ -146,6 +161,33 @@ export function createState(library: LibrarySummary, linked: Partial<Linked>, th
     future: [],
   });
 }
+
+/** How the recipes of a space are mixed unless a person says otherwise. */
+export function usualBlend({ spaces }: LibrarySummary, space: string): string {
+  return spaces.find(({ name }) => name === space)?.usual_blend ?? LINEAR;
+}
+
+/** How what is shown is mixed. */
+export function blendOf({ held, atPoint, route }: Pick<State, "held" | "atPoint" | "route">): string {
+  return (held ?? atPoint)?.recipe.blend ?? route?.blend ?? LINEAR;
+}
+
+/** How what it is compared with is mixed. */
+export function otherBlendOf(state: Pick<State, "compare" | "kept" | "otherRoute">): string {
+  return comparedKept(state)?.recipe.blend ?? state.otherRoute?.blend ?? LINEAR;
+}
+
+/** What pictures are made of: the recipe's materials where their pictures mix, else its own table. */
+export function drawnOf(state: State): readonly Ingredient[] {
+  return blendOf(state) === LINEAR ? state.recipe : state.mixed;
+}
+
+export function otherDrawnOf(state: State): readonly Ingredient[] {
+  return otherBlendOf(state) === LINEAR ? state.otherRecipe : state.otherMixed;
+}
+
+/** What of the state says what is drawn. */
+export const DRAWN = ["recipe", "mixed", "otherRecipe", "otherMixed", "route", "otherRoute"] as const;
 
 /** The material that is compared with; null when it is a space, or nothing. */
 export function comparedStop(compare: string): string | null {
@@ -309,7 +351,8 @@ export class Actions {
   /** To another space, route or point; what is not said stays, but for a free point. */
   go = (change: Partial<Whereabouts>): void => {
     const { slot } = this.store.get();
-    const next = { ...this.whereabouts(), point: null, ...change };
+    const blend = change.space !== undefined && { blend: usualBlend(this.store.get().library, change.space) };
+    const next = { ...this.whereabouts(), point: null, ...blend, ...change };
     for (const cause of [CHOICE, LINK]) this.say("route", cause, null);
     this.remember();
     this.follow(next, Math.min(slot, next.stops.length - 1));
@@ -318,7 +361,13 @@ export class Actions {
   /** Go where a link leads; what it does not say stays, but for a free point. */
   visit = (linked: Partial<Linked>, unknown: string | null = null): void => {
     const { space, pace, stops, point } = { ...this.store.get(), point: null, ...linked };
-    this.go({ space, pace, stops, point });
+    this.go({
+      pace,
+      stops,
+      point,
+      ...(linked.space && { space }),
+      ...(linked.blend && { blend: linked.blend }),
+    });
     this.store.set({ ...linked, slot: stops.length - 1, goal: null, playing: false });
     if (point === null) this.setT(this.store.get().t);
     this.say("route", LINK, unknown);
@@ -354,8 +403,8 @@ export class Actions {
   }
 
   private whereabouts(): Whereabouts {
-    const { space, pace, stops, point } = this.store.get();
-    return { space, pace, stops, point };
+    const { space, blend, pace, stops, point } = this.store.get();
+    return { space, blend, pace, stops, point };
   }
 }
 

@@ -1,20 +1,25 @@
 // Which materials' tables are needed, and which come next, those nearest to t first.
 
+import { LINEAR } from "./blend";
 import { CHANNELS, namesIn } from "./recipe";
+import { mixedName } from "./render/tables";
 import type { Route } from "./route";
-import type { State } from "./state";
+import { drawnOf, otherDrawnOf, type State } from "./state";
 
 /** What is shown; before the route has come, the stops beside t: a good guess. */
-export function shownNames({ recipe, otherRecipe, stops, t }: State): string[] {
-  if (recipe.length > 0) return namesIn(recipe, otherRecipe);
+export function shownNames(state: State): string[] {
+  const { blend, stops, t } = state;
+  const drawn = drawnOf(state);
+  if (drawn.length > 0) return namesIn(drawn, otherDrawnOf(state));
+  if (blend !== LINEAR) return [mixedName()];
   const leg = Math.min(Math.floor(t * (stops.length - 1)), stops.length - 2);
   return stops.slice(leg, leg + 2);
 }
 
 /** What the slider meets next, on both routes by turns. */
 export function comingUp({ route, otherRoute, t }: State): string[] {
-  const own = route ? nearestFirst(route, t) : [];
-  const other = otherRoute ? nearestFirst(otherRoute, t) : [];
+  const own = route?.blend === LINEAR ? nearestFirst(route, t) : [];
+  const other = otherRoute?.blend === LINEAR ? nearestFirst(otherRoute, t) : [];
   return [...new Set(own.flatMap((name, i) => [name, other[i] ?? name]).concat(other))];
 }
 

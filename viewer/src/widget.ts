@@ -7,7 +7,7 @@ import { type Mounted, mount } from "./mount";
 import type { State } from "./state";
 
 /** What the page and Python both hold. */
-const TRAITS = ["space", "pace", "stops", "point", "t"] as const;
+const TRAITS = ["space", "blend", "pace", "stops", "point", "t"] as const;
 type Shared = Pick<State, (typeof TRAITS)[number]>;
 
 /** The part of anywidget's model that we use. */

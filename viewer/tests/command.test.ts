@@ -8,11 +8,13 @@ import { materialName } from "../src/title";
 const LIBRARY = {
   name: "lab",
   address: "my files/lab.brdflib",
+  blends: ["linear", "root"],
   materials: ["a", "b", "c"].map((name) => ({ name })),
 } as unknown as LibrarySummary;
 const ON_ROUTE = {
   library: LIBRARY,
   space: "paper",
+  blend: "root",
   pace: "uniform",
   stops: ["a", "b"],
   t: 0.25,
@@ -31,16 +33,16 @@ const ON_ROUTE = {
 
 test("a place on a route is made by route and render", () => {
   expect(toCommand(ON_ROUTE)).toBe(
-    "halfway route 'my files/lab.brdflib' a b --space paper --pace uniform --t 0.25 -o a-to-b-0.250" +
+    "halfway route 'my files/lab.brdflib' a b --space paper --blend root --pace uniform --t 0.25 -o a-to-b-0.250" +
       " && halfway render a-to-b-0.250 --scene spheres --env studio -o a-to-b-0.250.png",
   );
 });
 
 test("a free point is made by mix, under the name of what it is mostly made of", () => {
-  const atPoint = { recipe: { library: "lab", weights: {} }, point: [1, -2], inside: true };
+  const atPoint = { recipe: { library: "lab", blend: "linear", weights: {} }, point: [1, -2], inside: true };
   const free = { ...ON_ROUTE, point: [1, -2], atPoint, shape: "teapot" } as const;
   expect(toCommand(free)).toBe(
-    "halfway mix 'my files/lab.brdflib' --point=1,-2 --space paper --clamp -o a-75-b-25.binary" +
+    "halfway mix 'my files/lab.brdflib' --point=1,-2 --space paper --blend root --clamp -o a-75-b-25.binary" +
       " && halfway render a-75-b-25.binary --scene teapot -o a-75-b-25.png",
   );
 });
@@ -50,7 +52,7 @@ test("one material alone is called by its name", () => {
 });
 
 test("a shortlist comes back from its file as it was", () => {
-  const recipe = { library: "lab", weights: { a: 0.5, b: 0.5 } };
+  const recipe = { library: "lab", blend: "linear", weights: { a: 0.5, b: 0.5 } };
   const kept = [keptOf("mine", recipe, "#t=0.5", "for the lid")];
   const [again] = fromText(toText("lab", kept), "shortlist.json", LIBRARY);
   expect({ ...again, id: "" }).toEqual({ ...kept[0], id: "" });
@@ -67,7 +69,7 @@ test.each([
 });
 
 test("what a shortlist needs and the library has not is kept, and said", () => {
-  const recipe = { library: "lab", weights: { a: 0.5, scan: 0.5 } };
+  const recipe = { library: "lab", blend: "linear", weights: { a: 0.5, scan: 0.5 } };
   const text = toText("lab", [keptOf("mine", recipe, "")]);
   const [kept] = fromText(text, "shortlist.json", LIBRARY);
   expect(missingIn(kept!.recipe, ["a", "b", "c"])).toEqual(["scan"]);

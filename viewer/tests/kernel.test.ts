@@ -29,10 +29,10 @@ const text = (value: unknown) => new TextEncoder().encode(JSON.stringify(value))
 
 test("answers find their questions, whatever their order", async () => {
   const { client, sent, answer } = fake();
-  const [first, second] = [client.spaceView("paper"), client.spaceView("linear")];
+  const [first, second] = [client.spaceView("paper", "root"), client.spaceView("linear", "linear")];
   expect(sent.map(({ method, path }) => [method, path])).toEqual([
-    ["GET", "api/spaces/paper"],
-    ["GET", "api/spaces/linear"],
+    ["GET", "api/spaces/paper?blend=root"],
+    ["GET", "api/spaces/linear?blend=linear"],
   ]);
   answer(sent[1]!.id, 200, text({ name: "linear" }));
   answer(sent[0]!.id, 200, text({ name: "paper" }));
@@ -50,8 +50,8 @@ test("a block is read where it stands in a shared buffer", async () => {
 
 test("a mistake is Python's own line", async () => {
   const { client, sent, answer } = fake();
-  const answered = client.at("linear", [0], new AbortController().signal);
-  expect(sent[0]!.body).toBe('{"space":"linear","point":[0]}');
+  const answered = client.at("linear", "root", [0], new AbortController().signal);
+  expect(sent[0]!.body).toBe('{"space":"linear","blend":"root","point":[0]}');
   answer(sent[0]!.id, 400, text({ error: "the space has no places." }));
   await expect(answered).rejects.toEqual(new Problem("the space has no places."));
 });
@@ -59,7 +59,7 @@ test("a mistake is Python's own line", async () => {
 test("a question taken back is not answered", async () => {
   const { client, sent, answer } = fake();
   const asked = new AbortController();
-  const leg = client.leg("paper", "a", "b", asked.signal);
+  const leg = client.leg("paper", "linear", "a", "b", asked.signal);
   asked.abort();
   await expect(leg).rejects.toThrow("aborted");
   answer(sent[0]!.id, 200, text({}));

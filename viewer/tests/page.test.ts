@@ -3,8 +3,10 @@ import { expect, test, vi } from "vitest";
 import type { LegView, LibrarySummary } from "../src/api/schema";
 import { toByte, toSrgb } from "../src/colour";
 import { fromHash, toHash } from "../src/permalink";
+import { only } from "../src/recipe";
 import { join, recipeAt } from "../src/route";
-import { Actions, createState } from "../src/state";
+import { keptOf } from "../src/shortlist";
+import { Actions, createState, drawnOf } from "../src/state";
 import { createStore } from "../src/store";
 import { golden } from "./golden";
 
@@ -18,11 +20,13 @@ const LIBRARY: LibrarySummary = {
   licence: "",
   checksum: "",
   grid: [],
+  small_grid: [],
   materials: ["a", "b", "c", "d"].map((name) => ({ name })),
   spaces: [
-    { name: "paper", text: "" },
-    { name: "linear", text: "" },
+    { name: "paper", text: "", usual_blend: "lobes" },
+    { name: "linear", text: "", usual_blend: "linear" },
   ],
+  blends: ["linear", "root", "log", "lobes"],
   paces: ["uniform"],
   lights: [],
   exports: ["merl"],
@@ -48,6 +52,7 @@ test("the sRGB curve is Python's", () => {
 test("a link comes back to the same view", () => {
   const linked = {
     space: "linear",
+    blend: "root",
     pace: "uniform",
     stops: ["a", "c", "b"],
     t: 0.25,
@@ -112,6 +117,31 @@ test("a stop never follows itself", () => {
   expect(store.get().stops).toEqual(["a", "b", "a"]);
 });
 
+test("a space has its usual blend until a person says otherwise, and undo brings back what it was", () => {
+  const { store, actions } = page();
+  expect(store.get().blend).toBe("lobes");
+  actions.go({ blend: "root" });
+  actions.go({ space: "linear" });
+  expect(store.get().blend).toBe("linear");
+  actions.undo();
+  expect(store.get()).toMatchObject({ space: "paper", blend: "root" });
+  actions.visit({ space: "paper", blend: "log" });
+  expect(store.get().blend).toBe("log");
+});
+
+test("pictures are made of a recipe's materials where they mix, and else of its own table", () => {
+  const { store, actions } = page();
+  actions.setRoute(route);
+  expect(drawnOf(store.get())).toBe(store.get().recipe);
+  actions.setRoute({ ...route, blend: "lobes" });
+  expect(drawnOf(store.get())).toEqual([]);
+  store.set({ mixed: only("the mix") });
+  expect(drawnOf(store.get())).toEqual(only("the mix"));
+  // What is held instead of the route has a blend of its own.
+  actions.hold(keptOf("kept", { library: "small", blend: "linear", weights: { a: 1 } }, ""));
+  expect(drawnOf(store.get())).toEqual(only("a"));
+});
+
 test("undo and redo go back and forth", () => {
   const { store, actions } = page();
   actions.selectSlot(2);
@@ -141,7 +171,11 @@ test("a free point is one act, which undo takes back and redo brings again", () 
   actions.setRoute(route);
   const onRoute = store.get().recipe;
   for (const x of [0.1, 0.2, 0.3]) actions.goTo([x]);
-  actions.setAtPoint({ recipe: { library: "small", weights: { d: 1 } }, point: [0.3], inside: true });
+  actions.setAtPoint({
+    recipe: { library: "small", blend: "lobes", weights: { d: 1 } },
+    point: [0.3],
+    inside: true,
+  });
   expect(store.get().recipe).toEqual([{ name: "d", weight: [1, 1, 1] }]);
   actions.undo();
   expect(store.get().point).toBeNull();

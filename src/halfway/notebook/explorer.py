@@ -15,7 +15,7 @@ from traitlets import Float, Instance, List, Unicode, default, observe, validate
 from ..cache import user_folder
 from ..errors import HalfwayError, SpaceError
 from ..library import DEFAULT_LIBRARY, Library, open_library
-from ..recipes import Recipe
+from ..recipes import Blend, Recipe
 from ..server import Explorer as Answers
 from ..server import Point, app_of, refresh
 from ..space import PACES, SPACES, LinearSpace, Route
@@ -38,15 +38,15 @@ class Explorer(AnyWidget):
         The materials that the route goes through, two or more.
     t : float
         Where on the route to begin, in [0, 1].
-    space, pace : str
-        As ``halfway route`` takes them.
+    space, pace, blend : str
+        As ``halfway route`` takes them; the usual blend of the space where none is named.
     work : Work
         Where it keeps what is dear to work out: the cache folder of ``halfway view`` unless told otherwise.
 
     Attributes
     ----------
-    space, pace, stops, t : traits
-        Where it is; set them to go elsewhere, and observe them to follow the person.
+    space, blend, pace, stops, t : traits
+        Where it is (another space keeps the blend); set them to go elsewhere, and observe them to follow the person.
     point : trait, list of float or None
         A free place of the space instead of one on the route: its coordinates as the page has them.
     recipe : trait, Recipe
@@ -66,6 +66,7 @@ class Explorer(AnyWidget):
     """
 
     space = Unicode().tag(sync=True)
+    blend = Unicode().tag(sync=True)
     pace = Unicode().tag(sync=True)
     stops = List(Unicode()).tag(sync=True)
     t = Float().tag(sync=True)
@@ -83,22 +84,24 @@ class Explorer(AnyWidget):
         t: float = 0.5,
         space: str = next(iter(SPACES)),
         pace: str = PACES[0],
+        blend: str | None = None,
         work: Work = WITH_CACHE,
     ) -> None:
         self.library = library if isinstance(library, Library) else open_library(library)
         self._answers = Answers(self.library, work=work)
         self._route: Route | None = None
         stops = list(stops) or self._favourites()
-        super().__init__(space=space, pace=pace, stops=stops, t=t)
+        usual = SPACES[space].usual_blend if space in SPACES else Blend.LINEAR
+        super().__init__(space=space, blend=blend or usual, pace=pace, stops=stops, t=t)
         self._answerer = Answerer(app_of(self._answers), self.send)
         self.on_msg(self._receive)
 
     @property
     def route(self) -> Route:
         """The way through the stops."""
-        way = (self.space, tuple(self.stops), self.pace)
+        way = (self.space, tuple(self.stops), self.pace, self.blend)
         # Several traits may change at once, and each of them says so.
-        if self._route is None or (self._route.space, self._route.stops, self._route.pace) != way:
+        if self._route is None or _way_of(self._route) != way:
             self._route = self._answers.way(*way)
         return self._route
 
@@ -109,12 +112,13 @@ class Explorer(AnyWidget):
     def _leave_the_free_place(self, _: Any) -> None:
         self.point = None
 
-    @observe("space", "pace", "stops", "t", "point")
+    @observe("space", "blend", "pace", "stops", "t", "point")
     def _show(self, _: Any) -> None:
         if self.point is None:
             recipe = self.route.recipe(self.t)
         else:
-            position = self._answers.position(Point(space=self.space, point=self.point))
+            asked = Point(space=self.space, blend=self.blend, point=self.point)
+            position = self._answers.position(asked)
             recipe = Recipe.from_json(position.recipe.model_dump())
         self.set_trait("recipe", recipe)
 
@@ -125,6 +129,10 @@ class Explorer(AnyWidget):
         if name not in known:
             raise SpaceError(f"there is no {kind} {name!r}: expected one of {', '.join(known)}.")
         return name
+
+    @validate("blend")
+    def _mixable(self, proposal: dict[str, Any]) -> str:
+        return str(Blend(proposal["value"]))
 
     @validate("stops")
     def _reachable(self, proposal: dict[str, Any]) -> list[str]:
@@ -155,6 +163,10 @@ class Explorer(AnyWidget):
     def _favourites(self) -> list[str]:
         names = self.library.names
         return list(FAVOURITES if set(FAVOURITES) <= set(names) else (names[0], names[-1]))
+
+
+def _way_of(route: Route) -> tuple[str, tuple[str, ...], str, str]:
+    return route.space, route.stops, route.pace, str(route.blend)
 
 
 def _bundled(name: str) -> str:

@@ -6,13 +6,15 @@
     GET  /api/legs/{space}/{start}/{stop}        the way from one material to another: weights at knots
     POST /api/position                           the recipe at a point of a space
     GET  /api/tables/{material}                  a table as half floats (`blocks`)
+    POST /api/mix                                the table of a recipe, as half floats; ?small=true: a small one
     GET  /api/thumbnails                         small pictures of all materials, as half floats
+    POST /api/thumbnails                         such pictures of recipes
     GET  /api/environment                        the studio, as half floats
     POST /api/export/{format}                    a recipe's file (`taking`)
     POST /api/materials/{file}                   a measurement that is a material from now on: its file
     GET  /api/docs.json                          this, as OpenAPI
 
-Every mistake is answered as ``{"error": "one line"}``. What takes longer than the explorer's patience is answered with 202 and how far
+Spaces and legs take ``?blend=``; without it they are in the space's usual blend. Every mistake is answered as ``{"error": "one line"}``. What takes longer than the explorer's patience is answered with 202 and how far
 it is (`NotYet`): ask again. Large answers are compressed where the browser takes it, and name their content (ETag).
 """
 
@@ -113,12 +115,12 @@ def _add_queries(app: FastAPI, explorer: Explorer) -> None:
         return explorer.summary()
 
     @app.get("/api/spaces/{space}")
-    def space(space: Name) -> SpaceView:
-        return explorer.space_view(space)
+    def space(space: Name, blend: str | None = None) -> SpaceView:
+        return explorer.space_view(space, blend)
 
     @app.get("/api/legs/{space}/{start}/{stop}")
-    def leg(space: Name, start: Name, stop: Name) -> LegView:
-        return explorer.leg(space, start, stop)
+    def leg(space: Name, start: Name, stop: Name, blend: str | None = None) -> LegView:
+        return explorer.leg(space, start, stop, blend)
 
     @app.post("/api/position")
     def position(point: Point) -> PositionView:
@@ -159,6 +161,14 @@ def _add_blocks(app: FastAPI, explorer: Explorer) -> None:
     @app.get("/api/thumbnails", response_class=Response, responses=BYTES)
     def thumbnails(request: Request) -> Response:
         return answer(request, explorer.thumbnails)
+
+    @app.post("/api/mix", response_class=Response, responses=BYTES)
+    def mix(recipe: RecipeDocument, small: bool = False) -> Response:
+        return _plain(explorer.mixed(recipe, small=small))
+
+    @app.post("/api/thumbnails", response_class=Response, responses=BYTES)
+    def thumbnails_of(recipes: list[RecipeDocument]) -> Response:
+        return _plain(explorer.thumbnails_of(recipes))
 
     @app.get("/api/environment", response_class=Response, responses=BYTES)
     def environment(request: Request) -> Response:
@@ -215,6 +225,11 @@ def _content(
         return Response(content.body, media_type=media_type, headers=headers)
     headers["Content-Encoding"] = "gzip"
     return Response(content.packed, media_type=media_type, headers=headers)
+
+
+def _plain(block: Block) -> Response:
+    """An answer that is not asked for again: compressing it would take longer than sending it."""
+    return Response(block.body, media_type="application/octet-stream", headers=block.headers)
 
 
 def _unchanged(etag: str, kept: str) -> Response:

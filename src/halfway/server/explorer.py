@@ -4,20 +4,24 @@ No HTTP here. What is dear is computed once, when it is first asked for: the pic
 kept in bounded number.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from functools import lru_cache, partial
 from importlib.metadata import version
+from itertools import product
 from pathlib import PurePath
 from threading import Lock
 
 import numpy as np
+from jaxtyping import Float64
 
+from ..brdf import TabularBrdf
 from ..components import Pca
 from ..errors import HalfwayError, RecipeError, SpaceError
+from ..halfdiff import Grid
 from ..library import Joined, Library
-from ..look import Looks
+from ..look import SMALL_GRID, Looks
 from ..recipes import Blend, Mixer, Recipe
 from ..render import SCENES, studio
 from ..space import PACES, SPACES, Embedding, Route, Scores, Space, lengths, make_space
@@ -49,19 +53,26 @@ N_TABLES = 16
 N_LEGS = 1000
 """Legs kept ready to be sent, some 10 kB each."""
 MAX_STOPS = 32
+MAX_PICTURES = 64
 
 
 class Explorer:
     """What the page asks of a library: its spaces, routes, tables and pictures, without HTTP.
 
     ``patience`` is how many seconds an answer may wait for what is computed once, before `NotYetError` says how far that is;
-    None waits for it.
+    None waits for it. ``make`` makes its spaces, as `make_space` does.
     """
 
     def __init__(
-        self, library: Library, *, work: Work = HERE, patience: float | None = None
+        self,
+        library: Library,
+        *,
+        work: Work = HERE,
+        patience: float | None = None,
+        make: Callable[..., Space] = make_space,
     ) -> None:
         self._patience = patience
+        self._make = make
         self._progress = Progress(work.track)
         self._work = replace(work, track=self._progress)
         self._adding = Lock()
@@ -72,7 +83,10 @@ class Explorer:
         progress = self._progress
         self._looks = Once(partial(Looks.fit, library, work=self._work), progress)
         self._spaces = {
-            name: Once(partial(_shown, name, library, self._work), progress) for name in SPACES
+            (name, blend): Once(
+                partial(self._make, name, library, blend=blend, work=self._work), progress
+            )
+            for name, blend in product(SPACES, Blend)
         }
         self._scores = Once(self._first_scores, progress)
         self._block = lru_cache(N_TABLES)(partial(_block_of, library))
@@ -83,7 +97,8 @@ class Explorer:
         """Compute what the first route needs: compiled metrics and solvers take a second to load."""
         with suppress(HalfwayError):  # said to whoever asks
             pictures = self._looks.get(None)
-            space = self._spaces[next(iter(SPACES))].get(None)
+            name, kind = next(iter(SPACES.items()))
+            space = self._spaces[name, kind.usual_blend].get(None)
             leg_view(Route.through(space, [space.names[0], space.names[-1]]), pictures)
 
     @property
@@ -102,9 +117,14 @@ class Explorer:
             source=library.origin.source,
             licence=library.origin.licence,
             checksum=library.checksum,
-            grid=[Axis.model_validate(vars(axis)) for axis in library.grid.axes],
+            grid=_axes(library.grid),
+            small_grid=_axes(SMALL_GRID),
             materials=[Material(name=name) for name in library.names],
-            spaces=[SpaceSummary(name=name, text=kind.summary) for name, kind in SPACES.items()],
+            spaces=[
+                SpaceSummary(name=name, text=kind.summary, usual_blend=kind.usual_blend)
+                for name, kind in SPACES.items()
+            ],
+            blends=list(Blend),
             paces=list(PACES),
             lights=[
                 PointLight(at=light.at, intensity=light.intensity)
@@ -113,9 +133,9 @@ class Explorer:
             exports=list(SUFFIXES),
         )
 
-    def space_view(self, name: str) -> SpaceView:
+    def space_view(self, name: str, blend: str | None = None) -> SpaceView:
         """The space called ``name``, to be looked at; its first scores where it has no points of its own."""
-        space = self.space(name)
+        space = self.space(name, blend)
         shown = space.embeddings() or [self._scores.get(self._patience)]
         return SpaceView(
             name=space.name,
@@ -123,23 +143,23 @@ class Explorer:
             embeddings=[EmbeddingView.model_validate(each, from_attributes=True) for each in shown],
         )
 
-    def leg(self, space: str, start: str, stop: str) -> LegView:
+    def leg(self, space: str, start: str, stop: str, blend: str | None = None) -> LegView:
         """The way from one material to another, of which the page makes its routes."""
-        return self._leg(space, start, stop)
+        return self._leg(space, start, stop, blend)
 
-    def way(self, space: str, stops: Sequence[str], pace: str) -> Route:
+    def way(self, space: str, stops: Sequence[str], pace: str, blend: str | None = None) -> Route:
         """The route through ``stops``."""
         if len(stops) > MAX_STOPS:
             raise SpaceError(
                 f"a route of {len(stops)} stops is too long: expected at most {MAX_STOPS}."
             )
         return route_through(
-            self.library, *stops, space=self.space(space), pace=pace, work=self._work
+            self.library, *stops, space=self.space(space, blend), pace=pace, work=self._work
         )
 
     def position(self, asked: Point) -> PositionView:
         """The material at a point of a space, or at the nearest that is a mix."""
-        found = self.space(asked.space).at(asked.point, clamp=True)
+        found = self.space(asked.space, asked.blend).at(asked.point, clamp=True)
         recipe = RecipeDocument.model_validate(found.recipe.to_json())
         return PositionView(recipe=recipe, point=found.point.tolist(), inside=found.inside)
 
@@ -147,11 +167,38 @@ class Explorer:
         """The table of one material."""
         return self._block(name)
 
+    def mixed(self, document: RecipeDocument, *, small: bool = False) -> Block:
+        """The table of a recipe; or a ``small`` one on a coarser grid, in milliseconds."""
+        recipe = self._recipe(document)
+        if not small:
+            return Block.of_table(self._mixer.mix(recipe))
+        values = self.pictures.tables.mix(self._weights(recipe), recipe.blend)
+        return Block.of_table(TabularBrdf(values.reshape(3, *SMALL_GRID.shape), SMALL_GRID))
+
     def thumbnails(self) -> Block:
         """Pictures of all materials on a lit sphere, (N, size, size, RGBA), linear, black beside the sphere."""
+        return self._spheres(self.pictures.images)
+
+    def thumbnails_of(self, documents: Sequence[RecipeDocument]) -> Block:
+        """Such pictures of recipes.
+
+        Raises
+        ------
+        RecipeError
+            When there is none, or too many.
+        """
+        if not 0 < len(documents) <= MAX_PICTURES:
+            raise RecipeError(
+                f"pictures of {len(documents)} recipes were asked for: expected 1 to {MAX_PICTURES}."
+            )
+        recipes = [self._recipe(document) for document in documents]
+        mixes = [self.pictures.mix(self._weights(each), each.blend) for each in recipes]
+        return self._spheres(np.concatenate(mixes))
+
+    def _spheres(self, images: np.ndarray) -> Block:
         mask = self.pictures.scene.mask()
-        pictures = np.zeros((len(self.library), *mask.shape, 3), np.float32)
-        pictures[:, mask] = self.pictures.images.clip(0)
+        pictures = np.zeros((len(images), *mask.shape, 3), np.float32)
+        pictures[:, mask] = images.clip(0)
         return Block.of(pictures, np.broadcast_to(mask, pictures.shape[:-1]))
 
     def environment(self) -> Block:
@@ -161,12 +208,7 @@ class Explorer:
 
     def export(self, format: str, document: RecipeDocument) -> Taken:
         """The file of a recipe."""
-        recipe = Recipe.from_json(document.model_dump())
-        if recipe.library.name != self.library.name:
-            raise RecipeError(
-                f"the recipe is of the library {recipe.library.name!r}, and this explorer shows {self.library.name!r}: "
-                "open that library with `halfway view`."
-            )
+        recipe = self._recipe(document)
         return written(self._mixer.mix(recipe), format, origin=self.library.origin.description)
 
     def add(self, file: str, content: bytes) -> str:
@@ -179,21 +221,37 @@ class Explorer:
             self._begin(Joined(self.library, name, brdf))
         return name
 
+    def _recipe(self, document: RecipeDocument) -> Recipe:
+        recipe = Recipe.from_json(document.model_dump())
+        if recipe.library.name != self.library.name:
+            raise RecipeError(
+                f"the recipe is of the library {recipe.library.name!r}, and this explorer shows {self.library.name!r}: "
+                "open that library with `halfway view`."
+            )
+        return recipe
+
+    def _weights(self, recipe: Recipe) -> Float64[np.ndarray, "3 1 N"]:
+        """Over all materials."""
+        weights = np.zeros((3, 1, len(self.library)))
+        weights[:, 0, [self.library.index(name) for name in recipe.names]] = recipe.weights
+        return weights
+
     def _first_scores(self) -> Embedding:
         """The first scores of all channels, of which nothing is a point to go to."""
         scores = Scores.joint(Pca.fit(self.library, work=self._work), N_AXES)
         axes = [name.replace("_", " ") for name in scores.names]
         return Embedding(scores.label, "all", axes, scores.points, [])
 
-    def _leg_of(self, space: str, start: str, stop: str) -> LegView:
-        return leg_view(Route.through(self.space(space), [start, stop]), self.pictures)
+    def _leg_of(self, space: str, start: str, stop: str, blend: str | None) -> LegView:
+        return leg_view(Route.through(self.space(space, blend), [start, stop]), self.pictures)
 
-    def space(self, name: str) -> Space:
-        """The space called ``name``."""
-        if name not in self._spaces:
+    def space(self, name: str, blend: str | None = None) -> Space:
+        """The space called ``name``; with its usual blend unless another is named."""
+        if name not in SPACES:
             # Says which there are.
             make_space(name, self.library)
-        return self._spaces[name].get(self._patience)
+        mixed = Blend(blend or SPACES[name].usual_blend)
+        return self._spaces[name, mixed].get(self._patience)
 
 
 def leg_view(route: Route, pictures: Looks) -> LegView:
@@ -212,10 +270,8 @@ def leg_view(route: Route, pictures: Looks) -> LegView:
     )
 
 
-def _shown(name: str, library: Library, work: Work) -> Space:
-    """A space as the page has it: three scores, which can be looked at, and linear mixes, whose pictures it mixes."""
-    n_components = min(N_AXES, max(0, len(library) - 4)) if name == "anchored" else None
-    return make_space(name, library, n_components=n_components, blend=Blend.LINEAR, work=work)
+def _axes(grid: Grid) -> list[Axis]:
+    return [Axis.model_validate(vars(axis)) for axis in grid.axes]
 
 
 def _block_of(library: Library, name: str) -> Block:

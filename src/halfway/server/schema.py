@@ -65,6 +65,8 @@ class SpaceSummary(Model):
     name: str
     text: str
     """One line on what it is."""
+    usual_blend: str
+    """How its recipes are mixed unless a person says otherwise."""
 
 
 class PointLight(Model):
@@ -88,8 +90,11 @@ class LibrarySummary(Model):
     licence: str
     checksum: str
     grid: list[Axis]
+    small_grid: list[Axis]
+    """Of the small tables of mixes."""
     materials: list[Material]
     spaces: list[SpaceSummary]
+    blends: list[str]
     paces: list[str]
     lights: list[PointLight]
     """Of the scene of three point lights."""
@@ -98,7 +103,7 @@ class LibrarySummary(Model):
 
 
 class EmbeddingView(Model):
-    """The materials as points in up to three dimensions, to be looked at."""
+    """The materials as points, whose first three coordinates can be looked at."""
 
     name: str
     channel: Channel | Literal["all"]
@@ -158,9 +163,10 @@ class ChannelWeights(Model):
 
 
 class RecipeDocument(Model):
-    """A recipe: barycentric weights over materials."""
+    """A recipe: barycentric weights over materials, and how they are mixed."""
 
     library: str
+    blend: str = "linear"
     weights: ChannelWeights | WeightsByName
 
 
@@ -168,6 +174,8 @@ class Point(Model):
     """A point of a space: the coordinates of its embeddings, one embedding after another."""
 
     space: str
+    blend: str | None = None
+    """That of the space; its usual one unless another is named."""
     point: Annotated[list[float], Field(min_length=1, max_length=24)]
 
 

@@ -22,7 +22,7 @@ import warnings
 from functools import partial
 from itertools import combinations
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -30,17 +30,20 @@ from ..batch import filling
 from ..errors import DegenerateSpaceWarning, OutputError
 from ..library import Library
 from ..look import Looks
-from ..space import SPACES, Route, Space
+from ..recipes import Blend
+from ..space import SPACES, Route, Space, make_space
 from ..tasks import HERE, Work
 from .blocks import Block
 from .explorer import Explorer, leg_view
 from .guard import META_POLICY
 from .page import Page
-from .schema import BlockFile, ChartsFile, ChartView, Folder, LegView, Model
+from .schema import BlockFile, ChartsFile, ChartView, Folder, LegView, LibrarySummary, Model
 
 N_LARGEST = 40
 """Materials that a folder takes: 780 legs in each space, and some thousand simplices."""
 DATA = "./data/"
+BLEND = Blend.LINEAR
+"""Nobody mixes tables for a folder."""
 
 
 class Exported(NamedTuple):
@@ -71,7 +74,7 @@ def export(
             "Name some with --materials, or choose with -n."
         )
     with filling(folder, "view", force=force) as scratch:
-        explorer = Explorer(library, work=work)
+        explorer = Explorer(library, work=work, make=small_space)
         files = _Files(scratch)
         _write_page(files, page)
         _write_blocks(files, explorer, work)
@@ -125,7 +128,7 @@ def _write_blocks(files: _Files, explorer: Explorer, work: Work) -> None:
     files.json(
         "data/explorer.json",
         Folder(
-            library=explorer.summary().model_copy(update={"exports": []}),
+            library=_summary(explorer),
             thumbnails=files.block("data/thumbnails.bin", explorer.thumbnails()),
             environment=files.block("data/environment.bin", explorer.environment()),
             tables=tables,
@@ -133,9 +136,22 @@ def _write_blocks(files: _Files, explorer: Explorer, work: Work) -> None:
     )
 
 
+def _summary(explorer: Explorer) -> LibrarySummary:
+    """What a folder can do: pictures mix in the page where the blend is linear, and it writes no tables."""
+    summary = explorer.summary()
+    spaces = [space.model_copy(update={"usual_blend": BLEND}) for space in summary.spaces]
+    return summary.model_copy(update={"exports": [], "blends": [BLEND], "spaces": spaces})
+
+
+def small_space(name: str, library: Library, **options: Any) -> Space:
+    """A space whose triangulation is small enough to be written: three scores and not more."""
+    n_components = min(3, max(0, len(library) - 4)) if name == "anchored" else None
+    return make_space(name, library, n_components=n_components, **options)
+
+
 def _write_space(files: _Files, explorer: Explorer, name: str, work: Work) -> None:
-    space = explorer.space(name)
-    files.json(f"data/spaces/{name}.json", explorer.space_view(name))
+    space = explorer.space(name, BLEND)
+    files.json(f"data/spaces/{name}.json", explorer.space_view(name, BLEND))
     if space.charts:
         files.json(f"data/charts/{name}.json", charts_file(space))
     pairs = list(combinations(space.names, 2))

@@ -1,4 +1,4 @@
-"""Charts as something to look at: up to three coordinates a material, and the edges between them."""
+"""Charts as something to look at: the coordinates of each material, and the edges between them."""
 
 from typing import NamedTuple, TypeAlias
 
@@ -14,7 +14,7 @@ N_AXES = 3
 
 
 class Embedding(NamedTuple):
-    """The materials as points in up to three dimensions."""
+    """The materials as points, whose first `N_AXES` coordinates are looked at."""
 
     name: str
     channel: Channel
@@ -22,7 +22,7 @@ class Embedding(NamedTuple):
     axes: list[str]
     """What the coordinates are."""
     points: Points
-    """In the library's order; the point of a linear mix is the mix of the points."""
+    """In the library's order; the point of a mix is the mix of the points."""
     edges: Edges
     """Of the triangulation, or of the hull, beyond which there is no mix."""
 
@@ -37,8 +37,8 @@ def embeddings_of(chart: Chart) -> list[Embedding]:
         Embedding(
             group.label if chart.channel == "all" else chart.channel.upper(),
             chart.channel,
-            [name.replace("_", " ") for name in group.names[:N_AXES]],
-            group.points[:, :N_AXES],
+            [name.replace("_", " ") for name in group.names],
+            group.points,
             _edges(simplices) if len(groups) == 1 else _hull(group.points[:, :N_AXES]),
         )
         for group in groups

@@ -40,15 +40,30 @@ export interface Exported {
 /** What the page asks for; every failure that a person can act on is a `Problem`. */
 export interface Client {
   readonly library: () => Promise<LibrarySummary>;
-  readonly spaceView: (space: string) => Promise<SpaceView>;
+  readonly spaceView: (space: string, blend: string) => Promise<SpaceView>;
   /** The way from one material to another that comes after it in the library. */
-  readonly leg: (space: string, start: string, stop: string, signal: AbortSignal) => Promise<LegView>;
+  readonly leg: (
+    space: string,
+    blend: string,
+    start: string,
+    stop: string,
+    signal: AbortSignal,
+  ) => Promise<LegView>;
   /** The material at a point of a space that has points. */
-  readonly at: (space: string, point: readonly number[], signal: AbortSignal) => Promise<PositionView>;
+  readonly at: (
+    space: string,
+    blend: string,
+    point: readonly number[],
+    signal: AbortSignal,
+  ) => Promise<PositionView>;
   readonly thumbnails: () => Promise<Block>;
   readonly environment: () => Promise<Block>;
   /** One material's table; `onProgress` is told the share that has come, in [0, 1]. */
   readonly table: (name: string, onProgress?: (share: number) => void) => Promise<Block>;
+  /** The table of a recipe, in full or small (the library's `small_grid`). */
+  readonly mixed: (recipe: RecipeDocument, small: boolean, signal: AbortSignal) => Promise<Block>;
+  /** Pictures of recipes, as those of the materials. */
+  readonly thumbnailsOf: (recipes: readonly RecipeDocument[]) => Promise<Block>;
   /** A recipe's file, in one of the library's `exports`. */
   readonly exported: (format: string, recipe: RecipeDocument) => Promise<Exported>;
   /** Takes a file of a measurement in, as a material of the library from now on; who cannot has no such function. */

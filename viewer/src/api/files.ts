@@ -22,11 +22,12 @@ export function files(base: string): Client {
   return {
     library: async () => (await folder()).library,
     spaceView,
-    leg: async (space, start, stop) => {
+    // Its one blend is linear.
+    leg: async (space, _, start, stop) => {
       const all = await names();
       return json(`legs/${space}/${all.indexOf(start)}-${all.indexOf(stop)}.json`);
     },
-    at: async (space, point) => {
+    at: async (space, _, point) => {
       const { charts } = await json<{ charts: ChartView[] }>(`charts/${space}.json`);
       return position(await spaceView(space), charts, (await folder()).library.name, await names(), point);
     },
@@ -36,10 +37,14 @@ export function files(base: string): Client {
       const i = (await names()).indexOf(name);
       return block(`${base}tables/${i}.bin`, (await folder()).tables[i]!, onProgress);
     },
-    exported: async () => {
-      throw new Problem("Files cannot mix tables: save the recipe, and `halfway mix` makes its table.");
-    },
+    mixed: cannotMix,
+    thumbnailsOf: cannotMix,
+    exported: cannotMix,
   };
+}
+
+async function cannotMix(): Promise<never> {
+  throw new Problem("Files cannot mix tables: save the recipe, and `halfway mix` makes its table.");
 }
 
 /** The material at a point, or a mix nearby; one chart is for all channels. */

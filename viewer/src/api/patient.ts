@@ -49,6 +49,8 @@ export function patient(
     at: again(client.at),
     thumbnails: again(client.thumbnails),
     environment: again(client.environment),
+    mixed: again(client.mixed),
+    thumbnailsOf: again(client.thumbnailsOf),
     table: again(client.table),
     // A person asked, and is there to be answered.
     exported: client.exported,

@@ -29,10 +29,16 @@ export function clientOver(ask: Ask): Client {
     said(ask, { method: "POST", path, body: JSON.stringify(body), ...(signal && { signal }) });
   return {
     library: async () => json(await get("api/library")),
-    spaceView: async (space) => json(await get(`api/spaces/${encodeURIComponent(space)}`)),
-    leg: async (space, start, stop, signal) =>
-      json(await get(`api/legs/${[space, start, stop].map(encodeURIComponent).join("/")}`, signal)),
-    at: async (space, point, signal) => json(await post("api/position", { space, point }, signal)),
+    spaceView: async (space, blend) =>
+      json(await get(`api/spaces/${encodeURIComponent(space)}?blend=${blend}`)),
+    leg: async (space, blend, start, stop, signal) => {
+      const way = [space, start, stop].map(encodeURIComponent).join("/");
+      return json(await get(`api/legs/${way}?blend=${blend}`, signal));
+    },
+    at: async (space, blend, point, signal) =>
+      json(await post("api/position", { space, blend, point }, signal)),
+    mixed: async (recipe, small, signal) => block(await post(`api/mix?small=${small}`, recipe, signal)),
+    thumbnailsOf: async (recipes) => block(await post("api/thumbnails", recipes)),
     thumbnails: async () => block(await get("api/thumbnails")),
     environment: async () => block(await get("api/environment")),
     table: async (name, onProgress = () => {}) =>

@@ -37,6 +37,7 @@ export interface Axis {
 export interface SpaceSummary {
   readonly name: string;
   readonly text: string;
+  readonly usual_blend: string;
 }
 
 /** A point light; world coordinates have z up, y away from the camera. */
@@ -56,14 +57,16 @@ export interface LibrarySummary {
   readonly licence: string;
   readonly checksum: string;
   readonly grid: readonly Axis[];
+  readonly small_grid: readonly Axis[];
   readonly materials: readonly Material[];
   readonly spaces: readonly SpaceSummary[];
+  readonly blends: readonly string[];
   readonly paces: readonly string[];
   readonly lights: readonly PointLight[];
   readonly exports: readonly string[];
 }
 
-/** The materials as points in up to three dimensions, to be looked at. */
+/** The materials as points, whose first three coordinates can be looked at. */
 export interface EmbeddingView {
   readonly name: string;
   readonly channel: "r" | "g" | "b" | "all";
@@ -107,15 +110,17 @@ export interface ChannelWeights {
   readonly b: Readonly<Record<string, number>>;
 }
 
-/** A recipe: barycentric weights over materials. */
+/** A recipe: barycentric weights over materials, and how they are mixed. */
 export interface RecipeDocument {
   readonly library: string;
+  readonly blend: string;
   readonly weights: ChannelWeights | Readonly<Record<string, number>>;
 }
 
 /** A point of a space: the coordinates of its embeddings, one embedding after another. */
 export interface Point {
   readonly space: string;
+  readonly blend: string | null;
   readonly point: readonly number[];
 }
 

@@ -10,12 +10,20 @@ import { search } from "./search";
 
 /** Milliseconds that a button says what it did. */
 const SAID = 1200;
+/** What each does, in a line. */
+const BLENDS: Readonly<Record<string, string>> = {
+  lobes: "highlights are brought to one width and mixed: one highlight that narrows",
+  linear: "weighted sums, the paper's: two highlights on the way",
+  root: "weighted sums of square roots: a dark material counts beside a bright one",
+  log: "weighted sums of log(1 + f): linear where dark, geometric in highlights",
+};
 
 export function head(context: Context): HTMLElement {
   const { store, options } = context;
   const { library } = store.get();
   const about = `${library.name}: ${library.description}`;
   const spaces = library.spaces.map(({ name, text }) => [name, text] as const);
+  const blends = library.blends.map((name) => [name, BLENDS[name] ?? ""] as const);
   const paces = library.paces.map((name) => [name, ""] as const);
   return el(
     "header.line.head",
@@ -25,6 +33,7 @@ export function head(context: Context): HTMLElement {
       el("span.badge", { title: `${library.source}\n${library.licence}` }, "stand-ins, not measurements"),
     search(context),
     choice(context, "space", "Space", spaces),
+    blends.length > 1 && choice(context, "blend", "Blend", blends),
     paces.length > 1 && choice(context, "pace", "Pace", paces),
     el(
       "div.group",
@@ -50,7 +59,7 @@ function isStandIn({ description }: LibrarySummary): boolean {
 
 function choice(
   { store, actions }: Context,
-  key: "space" | "pace",
+  key: "space" | "blend" | "pace",
   title: string,
   texts: readonly (readonly [name: string, text: string])[],
 ): HTMLElement {

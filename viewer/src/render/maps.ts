@@ -25,6 +25,7 @@ export interface Tick {
   readonly at: Vector3;
 }
 
+const N_AXES = 3;
 const MAX_QUANTILES = 13;
 /** Of the longest way of the cloud from its middle. */
 const RADIUS = 1.35;
@@ -37,19 +38,26 @@ export class CoordinateMap implements SpaceMap {
   private readonly centre = new Vector3();
   private readonly turn = new Matrix3();
 
+  private readonly embedding: EmbeddingView;
+
   constructor(
-    private readonly embedding: EmbeddingView,
+    { axes, ...whole }: EmbeddingView,
     private readonly names: readonly string[],
   ) {
+    // More cannot be seen together.
+    const embedding = { ...whole, axes: axes.slice(0, N_AXES) };
+    this.embedding = embedding;
     const columns = embedding.axes.map((_, axis) => embedding.points.map((point) => point[axis]!));
     this.scales = columns.map(quantileScale);
     this.extents = columns.map((values) => [Math.min(...values), Math.max(...values)]);
     const stretched = embedding.points.map((point) => this.stretch(point));
     for (const point of stretched) this.centre.addScaledVector(point, 1 / stretched.length);
     const centred = stretched.map((point) => point.clone().sub(this.centre));
-    const axes = principalAxes(centred);
-    const spread = axes.map((axis) => Math.max(...centred.map((point) => Math.abs(point.dot(axis))), 1e-6));
-    const [upright, across, away] = axes.map((axis, i) =>
+    const principal = principalAxes(centred);
+    const spread = principal.map((axis) =>
+      Math.max(...centred.map((point) => Math.abs(point.dot(axis))), 1e-6),
+    );
+    const [upright, across, away] = principal.map((axis, i) =>
       // Half way to a ball: a cloud like a needle would leave the panel empty.
       axis.clone().multiplyScalar(RADIUS / Math.sqrt(spread[0]! * spread[i]!)),
     );
@@ -83,7 +91,7 @@ export class CoordinateMap implements SpaceMap {
   }
 
   private stretch(point: readonly number[]): Vector3 {
-    const [x = 0, y = 0, z = 0] = point.map((value, axis) => this.scales[axis]!(value));
+    const [x = 0, y = 0, z = 0] = this.scales.map((scale, axis) => scale(point[axis]!));
     return new Vector3(x, y, z);
   }
 

@@ -12,9 +12,10 @@ import { TONES, type Tone, turnedAbout, type View } from "../scene";
 import { NoCardError, toRenderer } from "./card";
 import type { Environment } from "./environment";
 import { type Layer, Layers } from "./layers";
+import { SAMPLES_TO_SHOW } from "./quality";
 import { compositeShader, environmentShader, MAX_TERMS, Pass, pointsShader } from "./shaders";
 import { Stage } from "./stage";
-import { type TableOnCard, type Tables, whiteTable } from "./tables";
+import { isFiner, type TableOnCard, type Tables, whiteTable } from "./tables";
 
 /** Under an environment, and under points. */
 const TARGET_SAMPLES = [384, 128] as const;
@@ -201,7 +202,10 @@ export class Painter {
 
   /** Whether the present pictures make one of `wanted`, or of what was shown before, which then stays. */
   show(wanted: Shown): boolean {
-    if (wanted.recipe.length > 0 && this.layers.samples(namesIn(wanted.recipe, wanted.other)) > 0)
+    if (
+      wanted.recipe.length > 0 &&
+      this.layers.samples(namesIn(wanted.recipe, wanted.other)) >= this.least(wanted)
+    )
       this.shown = [wanted.recipe, wanted.other];
     const [recipe, other] = this.shown;
     // All samples may just have started over: the last picture stays until each material has one again. Before the first
@@ -218,6 +222,13 @@ export class Painter {
     });
     this.composite.draw(this.renderer, null);
     return recipe.length > 0;
+  }
+
+  /** Samples that what is wanted needs to be shown: as many as are not noisy where it is the same in a finer table. */
+  private least({ recipe, other }: Shown): number {
+    const before = namesIn(...this.shown);
+    const isSame = namesIn(recipe, other).some((name) => before.some((each) => isFiner(name, each)));
+    return isSame && this.layers.samples(before) > 0 ? Math.min(SAMPLES_TO_SHOW, this.targetSamples) : 1;
   }
 
   /** Weights and layers, as many as the shader has. */

@@ -18,6 +18,18 @@ export interface TableOnCard {
   readonly lobe: THREE.DataTexture;
 }
 
+/** Of the table of a mix: no material is called so. Without what tells it from others, of one that has not come. */
+export function mixedName(which = "", small = false): string {
+  return `${MIXED}${which}${small ? SMALL : ""}`;
+}
+
+/** Whether one is the full table of the mix that the other is the small one of. */
+export function isFiner(name: string, than: string): boolean {
+  return name.startsWith(MIXED) && than === name + SMALL;
+}
+
+const MIXED = "\0mixed ";
+const SMALL = " small";
 /** 11.7 MB each on the MERL grid. */
 const MAX_TABLES = 24;
 /** How many are fetched that only the way ahead needs. */
@@ -46,6 +58,12 @@ export class Tables {
     return this.loaded.get(name);
   }
 
+  /** Take in a table that was not fetched here. */
+  put(table: Table): void {
+    this.makeRoom();
+    this.loaded.set(table.name, toCard(table));
+  }
+
   /** The share of these tables that is here, in [0, 1]. */
   share(names: readonly string[]): number {
     const shares = names.map((name) => (this.loaded.has(name) ? 1 : (this.loading.get(name) ?? 0)));
@@ -63,7 +81,8 @@ export class Tables {
   private fetchNext(): void {
     for (const name of this.wanted) {
       if (this.loading.size >= AT_ONCE) return;
-      if (this.loaded.has(name) || this.loading.has(name) || this.resting.has(name)) continue;
+      if (this.loaded.has(name) || name.startsWith(MIXED) || this.loading.has(name) || this.resting.has(name))
+        continue;
       this.loading.set(name, 0);
       void this.fetch(name);
     }

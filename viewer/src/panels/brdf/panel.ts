@@ -4,7 +4,7 @@ import type { DrawableGrid } from "../../brdf/grid";
 import type { Context } from "../../context";
 import { dropdown, el, onResize, segments, style } from "../../dom";
 import { paced } from "../../paced";
-import type { PlotKind } from "../../state";
+import { DRAWN, drawnOf, otherDrawnOf, type PlotKind } from "../../state";
 import { albedo } from "./albedo";
 import { lobes } from "./lobes";
 import { type Pen, type Plot, type Reading, SCALES, type Scale, short } from "./plot";
@@ -73,7 +73,7 @@ class BrdfPanel {
       this.pen = toPen(context, this.canvas);
       this.update();
     });
-    store.watch(["recipe", "otherRecipe", "arrived"], this.update);
+    store.watch([...DRAWN, "arrived"], this.update);
   }
 
   private viewChoice(controls: HTMLElement): HTMLElement {
@@ -139,7 +139,7 @@ class BrdfPanel {
 
   private draw(): void {
     const { store, tables } = this.context;
-    const { recipe, otherRecipe } = store.get();
+    const [recipe, otherRecipe] = [drawnOf(store.get()), otherDrawnOf(store.get())];
     if (this.canvas.width === 0 || recipe.length === 0) return;
     const plot = this.plot();
     const all = [...recipe, ...otherRecipe];

@@ -30,9 +30,13 @@ export function slice(grid: readonly [Axis, Axis, Axis], phiDDegrees: number, sc
     length: 3 * nH * nD,
     nSteps: 1,
     fill: (table, samples) => {
+      // A small table stands in for the full one: the cells at the same angles.
+      const at = (axis: 0 | 1 | 2, i: number) =>
+        Math.floor(toPosition(table.grid[axis], toAngle(grid[axis], i + 0.5)));
       for (let h = 0; h < nH; h++) {
         for (let d = 0; d < nD; d++) {
-          samples.set(sample(table, h, d, column) ?? [Number.NaN, Number.NaN, Number.NaN], 3 * (h * nD + d));
+          const value = sample(table, at(0, h), at(1, d), at(2, column));
+          samples.set(value ?? [Number.NaN, Number.NaN, Number.NaN], 3 * (h * nD + d));
         }
       }
     },

@@ -6,7 +6,7 @@ import { paced } from "../../paced";
 import type { Environment } from "../../render/environment";
 import { Painter } from "../../render/painter";
 import { type Needed, Quality, STILL } from "../../render/quality";
-import type { State } from "../../state";
+import { DRAWN, drawnOf, otherDrawnOf, type State } from "../../state";
 import { comingUp, shownNames } from "../../wanted";
 import { sayWhenLost } from "../notices";
 
@@ -58,11 +58,11 @@ export class LivePicture {
     });
     onResize(canvas, (width, height) => this.resize(width, height));
     store.watch(["shape", "mesh", "orbit", "light", "turn", "ownLight"], () => this.look());
-    store.watch(["recipe", "otherRecipe", "split", "exposure", "tone"], () => {
+    store.watch([...DRAWN, "split", "exposure", "tone"], () => {
       this.quality.materialChanged(performance.now());
       this.next();
     });
-    store.watch(["arrived"], this.next);
+    store.watch(["arrived", "mixing"], this.next);
     tables.onProgress = this.next;
     // All pictures went with the context, and begin again.
     sayWhenLost(context, "material", canvas, () => this.look());
@@ -142,7 +142,7 @@ export class LivePicture {
     if (this.fit()) painter.look(state, this.environment);
     const added = painter.improve(names, pieces, piece, target);
     // Then what the slider meets next, at a few samples: crossing into it shows at once.
-    const left = state.recipe.length > 0 && added < pieces ? Math.ceil(pieces / 2) : 0;
+    const left = drawnOf(state).length > 0 && added < pieces ? Math.ceil(pieces / 2) : 0;
     const ahead = left && painter.improve(comingUp(state).slice(0, N_AHEAD), left, piece, SAMPLES_AHEAD);
     if (added + ahead > 0) {
       this.isDone = painter.fence();
@@ -155,8 +155,9 @@ export class LivePicture {
 
   private show(state: State, names: readonly string[]): void {
     const { painter, quality } = this;
-    const { recipe, otherRecipe, split, exposure, tone } = state;
-    const drawn = painter.show({ recipe, other: otherRecipe, split, exposure: 2 ** exposure, tone });
+    const { split, exposure, tone, mixing } = state;
+    const [recipe, other] = [drawnOf(state), otherDrawnOf(state)];
+    const drawn = painter.show({ recipe, other, split, exposure: 2 ** exposure, tone });
     const needed = this.needed(names);
     this.setCovered(quality.covers(drawn, needed));
     this.report({
@@ -164,7 +165,7 @@ export class LivePicture {
       loaded: this.context.tables.share(names),
       samples: recipe.length > 0 ? needed.fewest : 0,
       target: needed.target,
-      settled: recipe.length > 0 && quality.settled(needed),
+      settled: recipe.length > 0 && mixing.length === 0 && quality.settled(needed),
     });
   }
 

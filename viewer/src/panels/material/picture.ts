@@ -5,6 +5,7 @@ import { download, dropdown, el, iconButton, popover, style } from "../../dom";
 import { clamp } from "../../numbers";
 import { NoCardError } from "../../render/card";
 import { photograph } from "../../render/photograph";
+import { blendOf, drawnOf, otherDrawnOf } from "../../state";
 import { materialName } from "../../title";
 
 const SIZES = [16, 4096] as const;
@@ -64,7 +65,8 @@ async function photographed(
   onProgress: (share: number) => void,
 ): Promise<OffscreenCanvas> {
   const view = store.get();
-  const { recipe, otherRecipe: other, split, exposure, tone } = view;
+  const { split, exposure, tone } = view;
+  const [recipe, other] = [drawnOf(view), otherDrawnOf(view)];
   const environment = lights.get(view.light);
   if (environment === undefined) throw new Error("its light has not come yet.");
   const subject = { view, environment, lights: view.library.lights };
@@ -76,7 +78,8 @@ async function photographed(
       onProgress,
     );
   } catch (error) {
-    if (error instanceof NoCardError) return smallPicture(thumbnails.picture(recipe), size);
+    if (error instanceof NoCardError)
+      return smallPicture(thumbnails.picture(view.recipe, blendOf(view)), size);
     throw error;
   }
 }

@@ -2,6 +2,7 @@
 
 import type { Context } from "../../context";
 import { el } from "../../dom";
+import { blendOf } from "../../state";
 
 export function stillPictures(
   { store, thumbnails }: Context,
@@ -14,9 +15,12 @@ export function stillPictures(
   const text = `A small picture stands in for the live one. ${reason}`;
   panel.append(el("p.reason.note", { role: "status" }, text));
   for (const part of panel.querySelectorAll(".bottom, .split")) part.remove();
-  store.watch(["recipe", "pictured"], ({ recipe, pictured }) => {
+  const draw = () => {
+    const state = store.get();
+    const { recipe, pictured } = state;
     if (recipe.length === 0 || !pictured) return;
-    canvas.getContext("2d")!.putImageData(thumbnails.picture(recipe), 0, 0);
+    canvas.getContext("2d")!.putImageData(thumbnails.picture(recipe, blendOf(state), draw), 0, 0);
     panel.dataset.ready = "still";
-  });
+  };
+  store.watch(["recipe", "pictured"], draw);
 }

@@ -3,6 +3,7 @@
 import type { Context } from "../../context";
 import { download, el } from "../../dom";
 import { toDocument } from "../../recipe";
+import { blendOf } from "../../state";
 import { materialName } from "../../title";
 
 interface Format {
@@ -86,17 +87,17 @@ function sceneChoice(
 }
 
 async function take(
-  { client, store, actions }: Context,
+  context: Context,
   format: string,
   control: HTMLButtonElement | HTMLSelectElement,
   note: HTMLElement,
 ): Promise<void> {
-  const { library, recipe } = store.get();
+  const { client, store, actions } = context;
   const name = `${materialName(store.get())}${FORMATS[format]?.suffix ?? `.${format}`}`;
   control.disabled = true;
   note.textContent = `${name}: being written …`;
   try {
-    const { file, summary } = await client.exported(format, toDocument(library.name, recipe));
+    const { file, summary } = await client.exported(format, recipeIn(context));
     download(file, name);
     note.textContent = summary ? `${name}: ${summary}` : "";
     actions.say("recipe", "export", null);
@@ -112,6 +113,6 @@ function button(text: string, title: string, onclick: () => void): HTMLButtonEle
 }
 
 function recipeIn({ store }: Context) {
-  const { library, recipe } = store.get();
-  return toDocument(library.name, recipe);
+  const state = store.get();
+  return toDocument(state.library.name, state.recipe, blendOf(state));
 }

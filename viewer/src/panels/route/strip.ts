@@ -19,7 +19,7 @@ export function strip(context: Context): HTMLElement {
   const canvas = el("canvas", { "aria-hidden": "true" });
   const names = el("div.names");
   const element = el("div.strip", canvas, names, ...slider(context));
-  const draw = () => drawRows(context, canvas);
+  const draw = () => drawRows(context, canvas, draw);
   onResize(element, (width, height) => {
     canvas.width = width;
     canvas.height = height;
@@ -58,7 +58,8 @@ function slider({ store, actions }: Context): HTMLElement[] {
   return [input, playhead];
 }
 
-function drawRows(context: Context, canvas: HTMLCanvasElement): void {
+/** `again` runs when pictures have come that were missing. */
+function drawRows(context: Context, canvas: HTMLCanvasElement, again: () => void): void {
   const pen = canvas.getContext("2d")!;
   const { clientWidth: width, clientHeight: height } = canvas;
   const ratio = canvas.width / Math.max(width, 1);
@@ -69,7 +70,7 @@ function drawRows(context: Context, canvas: HTMLCanvasElement): void {
   const routes = [route, otherRoute].filter((each) => each !== null);
   const high = HEIGHT / Math.max(routes.length, 1);
   routes.forEach((each, row) => {
-    drawPictures(context, pen, each, { width, top: row * high, side: high - FOOT });
+    drawPictures(context, pen, each, again, { width, top: row * high, side: high - FOOT });
     drawTicks(context, pen, each, width, (row + 1) * high);
   });
 }
@@ -83,13 +84,14 @@ function drawPictures(
   { thumbnails }: Context,
   pen: CanvasRenderingContext2D,
   route: Route,
+  again: () => void,
   { width, top, side }: { readonly width: number; readonly top: number; readonly side: number },
 ): void {
   const cell = new OffscreenCanvas(thumbnails.size, thumbnails.size);
   const last = Math.max(1, Math.floor((width - THUMB) / (side * PITCH)));
   for (let i = 0; i <= last; i++) {
     const t = i / last;
-    cell.getContext("2d")!.putImageData(thumbnails.picture(recipeAt(route, t)), 0, 0);
+    cell.getContext("2d")!.putImageData(thumbnails.picture(recipeAt(route, t), route.blend, again), 0, 0);
     pen.drawImage(cell, toX(t, width) - side / 2, top, side, side);
   }
 }

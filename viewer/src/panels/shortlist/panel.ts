@@ -5,7 +5,7 @@ import { el, iconButton, popover } from "../../dom";
 import { toHash } from "../../permalink";
 import { toDocument } from "../../recipe";
 import { type Kept, keptOf, missingIn, recipeOf } from "../../shortlist";
-import { asComparedKept } from "../../state";
+import { asComparedKept, blendOf } from "../../state";
 import { shortName } from "../../title";
 import { takeAll } from "./take";
 
@@ -51,14 +51,16 @@ export function keepShown({ store, actions }: Context): void {
   const state = store.get();
   const { library, recipe } = state;
   if (recipe.length === 0) return;
-  actions.keep(keptOf(shortName(state), toDocument(library.name, recipe), toHash(state)));
+  actions.keep(keptOf(shortName(state), toDocument(library.name, recipe, blendOf(state)), toHash(state)));
 }
 
 function item(context: Context, kept: Kept): HTMLElement {
   const { store, actions, thumbnails } = context;
   const { held, compare, pictured } = store.get();
   const picture = el("canvas.sphere", { width: thumbnails.size, height: thumbnails.size });
-  if (pictured) picture.getContext("2d")!.putImageData(thumbnails.picture(recipeOf(kept)), 0, 0);
+  const draw = () =>
+    picture.getContext("2d")!.putImageData(thumbnails.picture(recipeOf(kept), kept.recipe.blend, draw), 0, 0);
+  if (pictured) draw();
   const missing = missingIn(kept.recipe, context.names);
   const needs = `It needs ${missing.join(", ")}: drop the file here again.`;
   const show = el(

@@ -146,7 +146,7 @@ class SpacePicture {
 
   private describe(): void {
     const { atPoint } = this.context.store.get();
-    const axes = this.embedding?.axes;
+    const axes = this.embedding?.axes.slice(0, 3);
     if (atPoint !== null && !atPoint.inside)
       this.beside.note.textContent = "no mix is at the ring: the dot is one nearby";
     else
