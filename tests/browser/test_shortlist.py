@@ -46,7 +46,7 @@ def test_what_is_kept_is_compared_named_and_taken_to_another_machine(
     page.set_viewport_size(SIZE)
     explorer.open(PAIR + "0.25")
     explorer.wait_for_recipe(["cherry-235", "gold-paint"])
-    page.get_by_role("button", name="Pin").click()
+    page.get_by_role("button", name="Pin", exact=True).click()
     explorer.set_t(0.75)
     page.locator(".live").press("p")
     assert kept(explorer) == ["0.25 cherry-235 to gold-paint", "0.75 cherry-235 to gold-paint"]
