@@ -30,6 +30,9 @@ FAVOURITES = ("cherry-235", "gold-metallic-paint")
 class Explorer(AnyWidget):
     """The explorer of a library, to be shown by the last line of a cell.
 
+    ``space``, ``blend``, ``pace``, ``stops`` and ``t`` are traits: where it is. Set them to go elsewhere (another space keeps the
+    blend), and observe them to follow the person.
+
     Parameters
     ----------
     library : str or Library
@@ -45,8 +48,6 @@ class Explorer(AnyWidget):
 
     Attributes
     ----------
-    space, blend, pace, stops, t : traits
-        Where it is (another space keeps the blend); set them to go elsewhere, and observe them to follow the person.
     point : trait, list of float or None
         A free place of the space instead of one on the route: its coordinates as the page has them.
     recipe : trait, Recipe
