@@ -254,7 +254,7 @@ def test_the_command_that_makes_the_picture_is_copied(explorer: Explorer) -> Non
     explorer.page.get_by_label("Copy the command").click()
     explorer.page.get_by_text("Copied").wait_for()
     assert explorer.page.evaluate("navigator.clipboard.readText()") == (
-        "halfway route browser cherry-235 gold-paint --space linear --pace uniform --t 0.5"
+        "halfway route browser cherry-235 gold-paint --space linear --blend linear --pace uniform --t 0.5"
         " -o cherry-235-to-gold-paint-0.500 && halfway render cherry-235-to-gold-paint-0.500"
         " --scene spheres --exposure 1 -o cherry-235-to-gold-paint-0.500.png"
     )

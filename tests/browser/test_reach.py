@@ -84,7 +84,7 @@ def test_the_search_says_which_material_is_marked(explorer: Explorer) -> None:
 def test_the_route_is_reached_before_the_panels_beside_it(explorer: Explorer) -> None:
     explorer.open(THREE)
     panels = explorer.page.locator("section.panel").evaluate_all("all => all.map(e => e.ariaLabel)")
-    assert panels == ["Space", "Material", "Route", "Recipe", "BRDF"]
+    assert panels == ["Space", "Material", "Route", "Shortlist", "Recipe", "BRDF"]
 
 
 @pytest.mark.parametrize("scheme", ["dark", "light"])

@@ -33,9 +33,11 @@ mount(document.querySelector<HTMLElement>("#app")!, data ? files(data) : http, {
 }).then(
   // Another link in the address bar of the same page loads nothing anew.
   ({ store, actions }) =>
-    addEventListener("hashchange", () => {
+    addEventListener("hashchange", ({ newURL }) => {
       const { library } = store.get();
-      actions.visit(fromHash(location.hash, library), unknownIn(location.hash, library));
+      // The address itself may be rewritten by now, to say what was shown before.
+      const { hash } = new URL(newURL);
+      actions.visit(fromHash(hash, library), unknownIn(hash, library));
     }),
   (error: unknown) => {
     // What a person can act on is on the page already.
