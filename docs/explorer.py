@@ -24,6 +24,7 @@ from playwright.sync_api import TimeoutError as TooLate
 
 from halfway import open_library
 from halfway.cli.console import cache_folder
+from halfway.colour import from_srgb
 from halfway.library import Library
 from halfway.render import SCENES, Renderer, pictures
 from halfway.server import Page as Files
@@ -169,11 +170,6 @@ def in_page(
     return from_srgb(coded[..., :3] / 255), coded[..., 3] == 255
 
 
-def from_srgb(coded: np.ndarray) -> np.ndarray:
-    """Linear light of the sRGB curve of IEC 61966-2-1."""
-    return np.where(coded <= 0.04045, coded / 12.92, ((coded + 0.055) / 1.055) ** 2.4)
-
-
 def clipped(radiance: np.ndarray) -> np.ndarray:
     """What a screen can show of it."""
     return radiance.clip(0, 1)
@@ -204,7 +200,7 @@ def take(browser: Browser, address: str, name: str) -> None:
     page.goto(address + fragment)
     with suppress(TooLate):
         # On a slow machine a picture that still gets better will do.
-        page.wait_for_selector(".material[data-settled=true]", timeout=400_000)
+        page.wait_for_selector(".material[data-settled=true]", timeout=120_000)
     page.screenshot(path=IMAGES / f"{name}.png", full_page=True)
     page.close()
     Image.open(IMAGES / f"{name}.png").convert("RGB").save(IMAGES / f"{name}.webp", quality=86)

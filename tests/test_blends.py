@@ -13,6 +13,7 @@ from strategies import convex_weights, random_tables
 
 from halfway import Recipe, TabularBrdf, mix
 from halfway.brdf import albedos, gloss, tabulate
+from halfway.cli.options import BlendName
 from halfway.errors import RecipeError
 from halfway.fit import OpenPbr
 from halfway.fit.microfacet import ggx
@@ -21,7 +22,7 @@ from halfway.judge import highlight, ladder_errors, ladders
 from halfway.library import ProceduralLibrary
 from halfway.look import PACING_SCENE, Looks, SphereOperator, appearance, cielab_difference
 from halfway.models import builtin
-from halfway.recipes import Blend, Mixer
+from halfway.recipes import Blend, Mixer, aligned_mean
 from halfway.space import AnchoredSpace, LinearSpace, Route
 
 GRID = Grid.merl(8, 6, 10)
@@ -96,8 +97,6 @@ def test_a_mean_lies_at_or_below_the_linear_one(materials, blend):
     weights = np.full((3, 2), 0.5)
     rows = [materials.row(i) for i in (1, 2)]
     parts = [gloss.Gloss.of(row, FINE) for row in rows]
-    from halfway.recipes import aligned_mean
-
     of = Blend.LINEAR.mapping
     assert (
         aligned_mean(parts, weights, blend.mapping, FINE)
@@ -196,6 +195,10 @@ def test_a_recipe_brings_its_blend_back_from_json(noise, blend):
 
 def test_a_recipe_without_a_blend_is_linear():
     assert Recipe.from_json({"library": "old", "weights": {"a": 1.0}}).blend is Blend.LINEAR
+
+
+def test_the_command_line_has_every_blend():
+    assert [name.value for name in BlendName] == [str(blend) for blend in Blend]
 
 
 def test_an_unknown_blend_is_said(noise):

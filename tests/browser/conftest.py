@@ -18,6 +18,7 @@ from patience import PATIENCE, wait_until
 from playwright.sync_api import Browser, ConsoleMessage, Error, Page, expect, sync_playwright
 
 from halfway.brdf import TabularBrdf
+from halfway.colour import from_srgb
 from halfway.halfdiff import Grid
 from halfway.library import ProceduralLibrary
 from halfway.models import builtin
@@ -180,9 +181,8 @@ class Explorer:
 
 
 def to_linear(shown: np.ndarray) -> np.ndarray:
-    """Linear RGB of drawn pixels, by the sRGB curve of IEC 61966-2-1."""
-    coded = shown[..., :3] / 255
-    return np.where(coded <= 0.04045, coded / 12.92, ((coded + 0.055) / 1.055) ** 2.4)
+    """Linear RGB of drawn pixels, as the display shows them."""
+    return from_srgb(shown[..., :3] / 255)
 
 
 def in_mitsuba(scene: Scene, brdf: TabularBrdf, like: np.ndarray, *, spp: int) -> np.ndarray:

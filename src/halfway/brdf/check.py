@@ -21,9 +21,10 @@ import numpy as np
 
 from .._types import Directions, Mask, Table, Values
 from ..colour import LUMINANCE
-from ..halfdiff import MERL, Grid, HalfDiff, from_half_diff
+from ..halfdiff import MERL, Grid, from_half_diff
 from .albedo_operator import albedos
 from .brdf import Brdf, require_isotropic
+from .gloss import Profile
 from .layout import MASK_TOLERANCE, horizon, layout_of
 from .quadrature import spread_angles
 from .table import TabularBrdf, tabulate
@@ -246,21 +247,13 @@ def _least(*samples: np.ndarray) -> float:
 
 def _highlight(brdf: Brdf) -> tuple[float | None, float | None]:
     """theta_h in degrees of the brightest value near normal incidence, and on to half its height; None without one."""
-    degrees = 75 * np.linspace(0, 1, 400) ** 2
-    theta_h, phi_d = np.radians(degrees)[:, None], np.pi * (np.arange(8) + 0.5) / 8
-    theta_d = np.radians(5.0)
-    wi, wo = from_half_diff(HalfDiff(theta_h, np.zeros((1, 1)), np.full((1, 1), theta_d), phi_d))
-    values = brdf.eval(wi, wo) @ LUMINANCE
-    known = np.isfinite(values)
-    counts = known.sum(axis=1)
-    degrees = degrees[counts > 0]
-    profile = (np.where(known, values, 0).sum(axis=1) / np.maximum(counts, 1))[counts > 0]
-    if not profile.size or profile.max() <= _LEAST_CONTRAST * max(profile.min(), 0):
+    profile = Profile.of(brdf)
+    heights = profile.luminance
+    if not heights.size or heights.max() <= _LEAST_CONTRAST * max(heights.min(), 0):
         return None, None
-    i_peak = int(profile.argmax())
-    below = np.flatnonzero(profile[i_peak:] < (profile.max() + profile.min()) / 2)
-    width = float(degrees[i_peak + below[0]] - degrees[i_peak]) if below.size else None
-    return float(degrees[i_peak]), width
+    width = profile.half_width()
+    peak = float(np.degrees(profile.theta_h[heights.argmax()]))
+    return peak, None if width is None else float(np.degrees(width))
 
 
 def _dynamic_range(values: Table) -> float:

@@ -27,12 +27,18 @@ import numpy as np
 from jaxtyping import Float32, Float64, Int
 
 from .._types import Table
-from ..halfdiff import Axis, Grid
+from ..colour import LUMINANCE
+from ..halfdiff import Grid, HalfDiff, from_half_diff
+from .brdf import Brdf
 
 FAINT, CLEAR = 0.1, 0.4
 """Shares of the value in the mirror direction up to which a lobe is body, and from which it is gloss."""
 STEEP_DEGREES = 60.0
 """The width is read where theta_d is smaller: beyond, shadowing and edges of the measurement bend the lobe."""
+
+PROFILE = np.radians(75) * np.linspace(0, 1, 400) ** 2
+"""theta_h of a profile, close together near the normal."""
+PROFILE_THETA_D = np.radians(5.0)
 
 Lobes = Float32[np.ndarray, "3 n_theta_h n"]
 
@@ -75,7 +81,7 @@ class Stretch(NamedTuple):
     @classmethod
     def by(cls, scale: float, grid: Grid) -> "Stretch":
         """To ``scale`` times the width."""
-        axis = _theta_h(grid)
+        axis = grid.axis("theta_h")
         theta = axis.centres()
         source = np.arctan(np.tan(theta) / scale)
         position = axis.to_position(source) - 0.5
@@ -97,15 +103,43 @@ class Stretch(NamedTuple):
         return stretched
 
 
+class Profile(NamedTuple):
+    """Luminance over theta_h where light and viewer are near to each other, the mean over phi_d."""
+
+    theta_h: Float64[np.ndarray, " n"]
+    """Of `PROFILE`, those that are measured."""
+    luminance: Float64[np.ndarray, " n"]
+
+    @classmethod
+    def of(cls, brdf: Brdf) -> "Profile":
+        """The profile of a BRDF."""
+        phi_d = np.pi * (np.arange(8) + 0.5) / 8
+        angles = PROFILE[:, None], np.zeros((1, 1)), np.full((1, 1), PROFILE_THETA_D), phi_d
+        values = brdf.eval(*from_half_diff(HalfDiff(*angles))) @ LUMINANCE
+        known = np.isfinite(values)
+        counts = known.sum(axis=1)
+        means = np.where(known, values, 0).sum(axis=1) / np.maximum(counts, 1)
+        return cls(PROFILE[counts > 0], means[counts > 0])
+
+    def half_width(self) -> float | None:
+        """How far it is from the peak to half of its height above the floor, in radians; None where it stays higher."""
+        peak = int(self.luminance.argmax())
+        half = (self.luminance.max() + self.luminance.min()) / 2
+        below = np.flatnonzero(self.luminance[peak:] < half)
+        if not below.size:
+            return None
+        after = peak + int(below[0])
+        high, low = self.luminance[after - 1], self.luminance[after]
+        share = (high - half) / (high - low)
+        theta_h = self.theta_h[after - 1] + share * (self.theta_h[after] - self.theta_h[after - 1])
+        return float(theta_h - self.theta_h[peak])
+
+
 def to_lobes(values: Table, grid: Grid) -> Lobes:
     """A table with theta_h first among the grid's axes, and the others in one; a view where they lie so."""
-    first = [axis.angle for axis in grid.axes].index("theta_h")
-    lobes = np.moveaxis(values.reshape(3, *grid.shape), 1 + first, 1)
-    return lobes.reshape(3, grid.axes[first].size, -1)
-
-
-def _theta_h(grid: Grid) -> Axis:
-    return next(axis for axis in grid.axes if axis.angle == "theta_h")
+    axis = grid.axis("theta_h")
+    lobes = np.moveaxis(values.reshape(3, *grid.shape), 1 + grid.axes.index(axis), 1)
+    return lobes.reshape(3, axis.size, -1)
 
 
 def _steepness(grid: Grid) -> Float32[np.ndarray, " n"]:
@@ -118,7 +152,7 @@ def _steepness(grid: Grid) -> Float32[np.ndarray, " n"]:
 
 def _width(profile: Float64[np.ndarray, " n_theta_h"], grid: Grid) -> float:
     """The geometric mean of the slopes of a lobe."""
-    axis = _theta_h(grid)
+    axis = grid.axis("theta_h")
     theta, step = axis.centres(), np.diff(axis.edges())
     slopes = np.tan(theta)
     weight = (profile * np.cos(theta) ** 4) ** 2 * slopes / np.cos(theta) ** 2 * step

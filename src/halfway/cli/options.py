@@ -153,7 +153,7 @@ Along = Annotated[
     str,
     typer.Option(
         metavar="NAME=FROM:TO",
-        help="From one material along an attribute, such as gloss60=5:80, instead of to others.",
+        help="From one material along an attribute, such as gloss60=5:80, instead of to others; no space, pace, detour or -k then.",
     ),
 ]
 Blending = Annotated[

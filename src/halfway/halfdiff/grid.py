@@ -113,6 +113,10 @@ class Grid:
         """Number of cells."""
         return math.prod(self.shape)
 
+    def axis(self, angle: str) -> Axis:
+        """The axis of an angle that the grid has."""
+        return next(axis for axis in self.axes if axis.angle == angle)
+
     @property
     def is_isotropic(self) -> bool:
         """Whether no table on it can depend on phi_h."""

@@ -5,7 +5,7 @@ from .images import Looks, most_different
 from .lit_sphere import JUDGING_SCENE, PACING_SCENE, SphereOperator, SphereScene
 from .portraits import N_SPHERES, portrait, recipes_png, table_png, to_png
 from .samples import CellSamples, body_colours, body_mask
-from .small_tables import GRID as SMALL_GRID
+from .small_tables import SMALL_GRID
 
 __all__ = [
     "JUDGING_SCENE",

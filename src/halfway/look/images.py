@@ -20,7 +20,7 @@ from ..recipes import Blend, Recipe
 from ..tasks import HERE, Work
 from .appearance import appearance, cielab_difference
 from .lit_sphere import PACING_SCENE, FilledSphere, SphereOperator, SphereScene
-from .small_tables import GRID, SmallTables
+from .small_tables import SMALL_GRID, SmallTables
 
 THINNING = 4
 """Every so many pixels are enough to choose materials by."""
@@ -100,7 +100,7 @@ class Looks:
 
 @lru_cache(maxsize=6)
 def _sphere(scene: SphereScene, step: int) -> FilledSphere:
-    return FilledSphere.of(scene, GRID, step=step)
+    return FilledSphere.of(scene, SMALL_GRID, step=step)
 
 
 def most_different(images: Looks, n: int) -> list[str]:

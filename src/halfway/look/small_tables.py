@@ -19,15 +19,13 @@ from ..recipes import Blend, aligned_mean
 from ..tasks import HERE, Work
 from .samples import body_mask
 
-GRID = Grid.merl(90, 15, 18)
+SMALL_GRID = Grid.merl(90, 15, 18)
 N_KEPT = 256
 """Tables kept in memory: .3 MB each, and as much again twice for body and gloss."""
 
 
 class SmallTables:
     """The small tables of a library, read when they are asked for."""
-
-    grid = GRID
 
     def __init__(self, library: Library, *, work: Work = HERE) -> None:
         self._library = library
@@ -39,7 +37,7 @@ class SmallTables:
         return SmallTables, (self._library,)
 
     def _parted(self, i: int) -> gloss.Gloss:
-        return gloss.Gloss.of(self._row(i), GRID)
+        return gloss.Gloss.of(self._row(i), SMALL_GRID)
 
     def mix(
         self, weights: Float[np.ndarray, "3 k N"], blend: Blend
@@ -49,7 +47,9 @@ class SmallTables:
         few = weights[..., used]
         if blend.aligns:
             parts = [self._parts(i) for i in used]
-            mixes = (aligned_mean(parts, each, blend.mapping, GRID) for each in few.swapaxes(0, 1))
+            mixes = (
+                aligned_mean(parts, each, blend.mapping, SMALL_GRID) for each in few.swapaxes(0, 1)
+            )
             return np.stack(list(mixes), axis=1)
         mapped = blend.mapping.to(np.stack([self._row(i) for i in used], axis=1))
         return blend.mapping.back(few.astype(np.float32) @ mapped)
@@ -58,18 +58,18 @@ class SmallTables:
         self, weights: Float[np.ndarray, "3 k N"], blend: Blend
     ) -> Float[np.ndarray, "k 3"]:
         """Body colours of k mixes, 1/sr."""
-        cells = np.flatnonzero(body_mask(GRID))
+        cells = np.flatnonzero(body_mask(SMALL_GRID))
         return self.mix(weights, blend)[..., cells].mean(axis=-1, dtype=np.float64).T
 
 
 def _kept(library: Library, work: Work, i: int) -> Float32[np.ndarray, "3 p"]:
-    key = f"small-1-{'x'.join(map(str, GRID.shape))}-{library.material_checksums[i]}"
+    key = f"small-1-{'x'.join(map(str, SMALL_GRID.shape))}-{library.material_checksums[i]}"
     return work.cached(key, lambda: {"table": _small(library, i)})["table"]
 
 
 def _small(library: Library, i: int) -> Float32[np.ndarray, "3 p"]:
     table = TabularBrdf(library.row(i).reshape(3, *library.grid.shape), library.grid)
-    lobes = gloss.to_lobes(np.array(tabulate(table, GRID).values), GRID)
+    lobes = gloss.to_lobes(np.array(tabulate(table, SMALL_GRID).values), SMALL_GRID)
     for row, following in zip(
         lobes[:, :-1].swapaxes(0, 1), lobes[:, 1:].swapaxes(0, 1), strict=True
     ):

@@ -48,7 +48,7 @@ class HalfVectorSampling:
     """
 
     def __init__(self, grid: Grid) -> None:
-        self._axis = next(axis for axis in grid.axes if axis.angle == "theta_h")
+        self._axis = grid.axis("theta_h")
         theta_h = np.concatenate([[0], self._axis.centres(), [self._axis.stop]])
         azimuths = np.linspace(0, np.pi, N_AZIMUTHS + 1)
         self._steps = np.diff(2 * np.sin(theta_h / 2) ** 2)
