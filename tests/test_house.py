@@ -45,6 +45,16 @@ def test_no_folder_is_imported_past_its_init(path: Path) -> None:
     assert past == []
 
 
+@pytest.mark.parametrize("path", FILES, ids=lambda path: str(path.relative_to(SOURCE)))
+def test_text_files_say_their_encoding(path: Path) -> None:
+    """Before Python 3.15 Windows takes its own code page."""
+    for node in ast.walk(ast.parse(path.read_text())):
+        match node:
+            case ast.Call(func=ast.Attribute(attr="read_text" | "write_text" as name)):
+                arguments = len(node.args) + len(node.keywords)
+                assert arguments > (name == "write_text"), f"line {node.lineno}"
+
+
 @pytest.mark.parametrize("folder", FOLDERS)
 def test_a_folder_has_at_most_twenty_public_names(folder: str) -> None:
     names = getattr(import_module(f"halfway.{folder}"), "__all__", [])

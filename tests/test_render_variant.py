@@ -1,5 +1,6 @@
 """Which Mitsuba runs: devices, LLVM libraries, variants, and what the doctor says of them."""
 
+import importlib.metadata
 import signal
 import subprocess
 import sys
@@ -92,6 +93,17 @@ except HalfwayError as error:
     assert done.stdout == "there is no device 'tpu': expected auto, cpu or gpu.\n"
 
 
+def test_a_system_library_that_mitsuba_lacks_is_named(monkeypatch, tmp_path):
+    """As drjit/__init__.py does: what is missing, and a second error over it."""
+    package = "try:\n    raise ImportError('libatomic.so.1: cannot open')\nexcept ImportError:\n    undefined\n"
+    (tmp_path / "lacking.py").write_text(package)
+    monkeypatch.syspath_prepend(tmp_path)
+    with pytest.raises(
+        RenderError, match=r"lacking cannot be imported \(libatomic\.so\.1: cannot open\)"
+    ):
+        variant._import("lacking")
+
+
 @pytest.mark.parametrize("name", ["scalar_rgb", "scalar_spectral", "llvm_ad_spectral_polarized"])
 def test_variants_that_cannot_look_up_tables_are_refused(name):
     with pytest.raises(RenderError, match=name):
@@ -161,6 +173,17 @@ def test_the_llvm_of_the_environment_is_found(monkeypatch):
     chosen = find_llvm()
     assert chosen is not None
     assert (str(chosen.path), chosen.version) == ("/somewhere/libLLVM-20.so", 20)
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="the LLVM of the environment is for Linux")
+def test_the_llvm_of_the_environment_is_found_before_its_links_are_made(monkeypatch):
+    listed = importlib.metadata.files("karellen-llvm-core") or []
+    without = [file for file in listed if file.name != "libLLVM.so"]
+    monkeypatch.delenv("DRJIT_LIBLLVM_PATH", raising=False)
+    monkeypatch.setattr(llvm.importlib.metadata, "files", lambda _: without)
+    found = find_llvm()
+    assert found is not None
+    assert found.origin == "karellen-llvm-core"
 
 
 @pytest.mark.parametrize(

@@ -103,8 +103,8 @@ class RemotePath:
         with self._asking() as (fs, path):
             return fs.cat_file(path)
 
-    def read_text(self) -> str:
-        return self.read_bytes().decode()
+    def read_text(self, encoding: str = "utf-8") -> str:
+        return self.read_bytes().decode(encoding)
 
     @contextmanager
     def open(self, mode: str = "rb") -> Generator[BufferedReader]:
@@ -189,7 +189,7 @@ def read_into(location: Location, starts: Sequence[int], buffers: Sequence[memor
 def append_text(location: Location, text: str) -> None:
     """Add to the end of a file; a remote one, which should be small, is put again as a whole."""
     if isinstance(location, RemotePath):
-        location.put_text(location.read_text() + text)
+        location.put_text(location.read_text(encoding="utf-8") + text)
         return
     with location.open("a") as file:
         file.write(text)

@@ -80,7 +80,7 @@ class Manifest:
         """
         for path, parse in ((folder / JOURNAL, _parse_journal), (folder / MANIFEST, _parse)):
             try:
-                return parse(path.read_text())
+                return parse(path.read_text(encoding="utf-8"))
             except (FileNotFoundError, NotADirectoryError):
                 continue
             except _NO_MANIFEST as error:
@@ -99,7 +99,7 @@ class Manifest:
         files = {name: self.entries[name].to_json() for name in sorted(self.entries)}
         document = {"format": FORMAT, "made": self.made, "files": files}
         with replacing(folder / MANIFEST) as temporary:
-            temporary.write_text(json.dumps(document, indent=1))
+            temporary.write_text(json.dumps(document, indent=1), encoding="utf-8")
         (folder / JOURNAL).unlink(missing_ok=True)
 
     def write_journal(self, folder: Location) -> None:
@@ -108,7 +108,7 @@ class Manifest:
         lines = [json.dumps(head) + "\n"]
         lines += [journal_line(name, entry) for name, entry in self.entries.items()]
         with replacing(folder / JOURNAL) as temporary:
-            temporary.write_text("".join(lines))
+            temporary.write_text("".join(lines), encoding="utf-8")
         (folder / MANIFEST).unlink(missing_ok=True)
 
 

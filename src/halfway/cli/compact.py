@@ -55,6 +55,11 @@ def compact(
     \b
     halfway library compact merl.brdflib -k 36 -o merl.brdfc
     halfway library compact merl_nbrdf.zip -k 108 -o neural.brdfc
+
+    \b
+    One material of the paper's k components, as a table:
+    halfway library compact merl.brdflib -k 5 --mapping linear --no-shared --precision float32 -o five.brdfc
+    halfway convert five.brdfc:chrome chrome-5.binary
     """
     from halfway.components import compact_library
     from halfway.library import Coding, open_library

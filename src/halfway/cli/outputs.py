@@ -31,7 +31,7 @@ def writing(*files: Location | None, force: bool) -> Generator[None]:
         with suppress(OSError):  # what is not noted is not written over
             note = _note(file)
             note.parent.mkdir(parents=True, exist_ok=True)
-            note.write_text(_state(file))
+            note.write_text(_state(file), encoding="utf-8")
 
 
 def _state(file: Location) -> str:
@@ -41,7 +41,7 @@ def _state(file: Location) -> str:
 
 def _noted(file: Location) -> str:
     with suppress(OSError):
-        return _note(file).read_text()
+        return _note(file).read_text(encoding="utf-8")
     return ""
 
 

@@ -82,7 +82,9 @@ def write_recipe(path: Path, library: Library, recipe: Recipe) -> None:
         **asdict(library.origin),
     }
     with replacing(path) as temporary:
-        temporary.write_text(json.dumps(document, indent=1, ensure_ascii=False) + "\n")
+        temporary.write_text(
+            json.dumps(document, indent=1, ensure_ascii=False) + "\n", encoding="utf-8"
+        )
 
 
 def write_materials(

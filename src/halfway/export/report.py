@@ -105,7 +105,7 @@ def write_report(
     """Write report.json and the figures into ``folder``; ``spaces`` are those of `compare_spaces`."""
     report = Report.of(library, pca, n_components=n_components, spaces=spaces)
     with replacing(folder / "report.json") as temporary:
-        temporary.write_text(json.dumps(report.to_json(), indent=1))
+        temporary.write_text(json.dumps(report.to_json(), indent=1), encoding="utf-8")
     label = Path(library.name).name
     if "stand-in" in library.origin.description:
         label += " (stand-ins, not measurements)"

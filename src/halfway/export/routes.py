@@ -157,7 +157,7 @@ def _sha256(text: str) -> str:
 
 def _write_text(path: Location, text: str) -> Checksum:
     with replacing(path) as temporary:
-        temporary.write_text(text)
+        temporary.write_text(text, encoding="utf-8")
         return Checksum.of(temporary)
 
 

@@ -88,7 +88,7 @@ def build_library(
             "materials": [asdict(entry) for entry in entries],
         }
         (folder / "tables.npy").rename(folder / tables)
-        (folder / DESCRIPTION).write_text(json.dumps(description, indent=1))
+        (folder / DESCRIPTION).write_text(json.dumps(description, indent=1), encoding="utf-8")
         if isinstance(path, RemotePath):
             _put(folder, path, tables)
         else:

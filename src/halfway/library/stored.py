@@ -225,7 +225,7 @@ def _tables_name(name: str) -> str:
 
 def _read_description(path: Location) -> dict[str, Any]:
     try:
-        description = json.loads((path / DESCRIPTION).read_text())
+        description = json.loads((path / DESCRIPTION).read_text(encoding="utf-8"))
         version = description["format"]
     except FileNotFoundError:
         raise LibraryError(

@@ -27,7 +27,7 @@ def demonstrate(folder: Path, library: Library, *, work: Work = HERE) -> None:
     way = route(library, *STOPS, space="paper", pace="uniform", work=work)
     ts = way.steps(N_MATERIALS)
     with replacing(folder / "recipes.json") as temporary:
-        temporary.write_text(json.dumps(way.to_json(ts)))
+        temporary.write_text(json.dumps(way.to_json(ts)), encoding="utf-8")
     recipes = way.recipes(ts)
     for i in NEW_MATERIALS:
         write_brdf(folder / f"{i:03d}.binary", mix(library, recipes[i]))

@@ -130,7 +130,7 @@ def reproduce(
         spp,
     )
     with replacing(folder / "paper.json") as temporary:
-        temporary.write_text(json.dumps(found.to_json(), indent=1))
+        temporary.write_text(json.dumps(found.to_json(), indent=1), encoding="utf-8")
     write_page(folder, found)
     return found
 

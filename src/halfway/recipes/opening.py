@@ -219,7 +219,7 @@ def _json_file(what: str) -> tuple[Path | None, str]:
 
 def _read_object(path: Location) -> Mapping[str, Any]:
     try:
-        document = json.loads(path.read_text())
+        document = json.loads(path.read_text(encoding="utf-8"))
     except RecursionError:
         raise RecipeError(f"{path} nests too deep: expected a recipe's JSON.") from None
     except ValueError as error:

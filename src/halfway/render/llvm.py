@@ -116,7 +116,8 @@ def _in_environment() -> Iterator[Llvm]:
     except importlib.metadata.PackageNotFoundError:
         return
     for file in files:
-        if file.name in ("libLLVM.so", "libLLVM.dylib"):
+        # libLLVM.so is a link, made when Python first starts after the installation, where that may write.
+        if re.fullmatch(r"libLLVM(\.so[.\d]*|\.dylib)", file.name):
             path = Path(str(file.locate())).resolve()
             yield Llvm(path, int(version.split(".")[0]), "karellen-llvm-core")
 

@@ -150,9 +150,17 @@ def _require_device(variant: str, device: Device) -> None:
 def _import(name: str) -> Any:
     try:
         return importlib.import_module(name)
-    except ImportError as error:
+    except ModuleNotFoundError as error:
         raise RenderError(
             f"{name} cannot be imported ({error}): rendering needs it. Run pip install mitsuba."
+        ) from error
+    except (ImportError, NameError) as error:
+        cause = (
+            error.__context__ or error
+        )  # Dr.Jit goes on after its first error, and into a second
+        raise RenderError(
+            f"{name} cannot be imported ({cause}): rendering needs it. Install the library that it names; "
+            "for libatomic on Debian, apt install libatomic1."
         ) from error
 
 
