@@ -2,7 +2,8 @@
 
 ``python docs/explorer.py`` writes screenshots, and pictures of three materials on a sphere and a teapot in two lights, in the page
 beside the same in Mitsuba, and prints how far the two are apart. ``--only compare``, ``--only screens`` or ``--only speed`` (what the
-first load takes, and a drag of t) does one of them.
+first load takes, a drag of t, and how long the picture takes to settle) does one of them. The rasteriser is Chromium's own in software;
+``--angle vulkan --size 1440x900`` takes a graphics card.
 """
 
 import argparse
@@ -33,7 +34,7 @@ from halfway.server.run import listen
 from halfway.tasks import Work
 
 IMAGES = Path(__file__).parent / "images"
-FLAGS = ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
+FLAGS = ["--no-sandbox", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist", "--enable-gpu"]
 MATERIALS = {"pink-felt": "matte", "cherry-235": "glossy", "chrome": "mirror-like"}
 SPHERE = SCENES["spheres"]
 # As the page has it: under the sphere's lights, and nothing else stands there.
@@ -56,17 +57,25 @@ def main() -> None:
     """Make what is asked for."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--only", choices=["compare", "screens", "speed"])
-    only = parser.parse_args().only
+    parser.add_argument(
+        "--angle", default="swiftshader", help="what WebGL runs on, as Chromium names it"
+    )
+    parser.add_argument("--size", default="460x560", help="of the window, for --only speed")
+    parser.add_argument("--chromium", default=shutil.which("chromium"))
+    given = parser.parse_args()
+    only = given.only
     library = open_library("builtin:merl-abc")
     with served(library) as address, sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=shutil.which("chromium"), args=FLAGS)
+        browser = playwright.chromium.launch(
+            executable_path=given.chromium, args=[*FLAGS, f"--use-angle={given.angle}"]
+        )
         if only in (None, "compare"):
             compare(browser, address, library)
         if only in (None, "screens"):
             for name in SCREENS:
                 take(browser, address, name)
         if only in (None, "speed"):
-            speed(browser, address)
+            speed(browser, address, *map(int, given.size.split("x")))
         browser.close()
 
 
@@ -113,9 +122,9 @@ def compare(browser: Browser, address: str, library: Library) -> None:
     Image.fromarray(picture).save(IMAGES / "explorer-beside-mitsuba.webp", quality=88)
 
 
-def speed(browser: Browser, address: str) -> None:
-    """What comes over the wire until the picture is there, when something useful is on the page, and a step of t."""
-    page = browser.new_page(viewport={"width": 460, "height": 560})
+def speed(browser: Browser, address: str, width: int, height: int) -> None:
+    """What comes over the wire until the picture is there, when something useful is on the page, a step of t, and the rest."""
+    page = browser.new_page(viewport={"width": width, "height": height})
     session = page.context.new_cdp_session(page)
     session.send("Network.enable")
     sizes: list[float] = []
@@ -127,10 +136,22 @@ def speed(browser: Browser, address: str) -> None:
     page.wait_for_selector(".material[data-ready=true]", timeout=120_000)
     page.wait_for_load_state("networkidle")
     loaded = sum(sizes) / 1e6
+    print(page.evaluate(RASTERISER))
     steps = page.evaluate(DRAG)
+    stopped = time.perf_counter()
+    page.wait_for_selector(".material[data-settled=true]", timeout=300_000)
+    settled = time.perf_counter() - stopped
     print(f"first load: {loaded:.1f} MB; stops, search and light after {useful:.2f} s")
-    print(f"a step of t: {statistics.median(steps):.0f} ms (median of {len(steps)})")
+    print(
+        f"a step of t: {statistics.median(steps):.0f} ms (median of {len(steps)}); settled {settled:.2f} s after the last, at {width} x {height}"
+    )
     page.close()
+
+
+RASTERISER = """() => {
+  const gl = document.createElement("canvas").getContext("webgl2");
+  return gl.getParameter(gl.getExtension("WEBGL_debug_renderer_info").UNMASKED_RENDERER_WEBGL);
+}"""
 
 
 DRAG = """async () => {
