@@ -89,15 +89,46 @@ class Grid:
         FormatError
             When a size is no positive whole number.
         """
-        for size in (n_theta_h, n_theta_d, n_phi_d):
-            if size < 1 or size != int(size):
-                raise FormatError(
-                    f"a grid of {n_theta_h} x {n_theta_d} x {n_phi_d} cells is none: expected whole numbers from 1 on, "
-                    "such as 90, 90, 180."
-                )
+        _check_sizes(n_theta_h, n_theta_d, n_phi_d, such_as="90, 90, 180")
         return cls(
             (
                 Axis("theta_h", n_theta_h, math.pi / 2, power=2),
+                Axis("theta_d", n_theta_d, math.pi / 2),
+                Axis("phi_d", n_phi_d, math.pi, periodic=True),
+            )
+        )
+
+    @classmethod
+    def anisotropic(
+        cls,
+        n_theta_h: int = 64,
+        n_phi_h: int = 72,
+        n_theta_d: int = 24,
+        n_phi_d: int = 36,
+        *,
+        period: float = 2 * math.pi,
+    ) -> "Grid":
+        """A grid for materials that depend on phi_h, as well as on what a MERL file has.
+
+        ``period`` is the turn about the normal after which a material looks the same: pi for threads and brushes.
+        phi_d has the period pi here too, for exchanging light and viewer leaves h where it is.
+
+        Raises
+        ------
+        FormatError
+            When a size is no positive whole number, or a whole turn is not a whole number of periods.
+        """
+        _check_sizes(n_theta_h, n_phi_h, n_theta_d, n_phi_d, such_as="48, 36, 24, 36")
+        turns = 2 * math.pi / period if period > 0 else 0
+        if turns < 1 or not math.isclose(turns, round(turns), rel_tol=1e-9):
+            raise FormatError(
+                f"a material that looks the same after a turn of {period:.6g} about its normal is none: "
+                "expected 2 pi, or that by a whole number."
+            )
+        return cls(
+            (
+                Axis("theta_h", n_theta_h, math.pi / 2, power=2),
+                Axis("phi_h", n_phi_h, period, periodic=True),
                 Axis("theta_d", n_theta_d, math.pi / 2),
                 Axis("phi_d", n_phi_d, math.pi, periodic=True),
             )
@@ -181,6 +212,13 @@ class Grid:
     def _positions(self, wi: Directions, wo: Directions) -> list[Angle]:
         angles = to_half_diff(wi, wo)
         return [axis.to_position(getattr(angles, axis.angle)) for axis in self.axes]
+
+
+def _check_sizes(*sizes: int, such_as: str) -> None:
+    if any(size < 1 or size != int(size) for size in sizes):
+        raise FormatError(
+            f"a grid of {' x '.join(map(str, sizes))} cells is none: expected whole numbers from 1 on, such as {such_as}."
+        )
 
 
 MERL = Grid.merl()
