@@ -1,6 +1,6 @@
 """Half/difference angles and the grids that sample them."""
 
-from .angles import HalfDiff, cosines, from_half_diff, reflect, to_half_diff
+from .angles import HalfDiff, cosines, from_half_diff, reflect, to_half_diff, turn
 from .grid import MERL, Axis, Corners, Grid
 
 __all__ = [
@@ -13,4 +13,5 @@ __all__ = [
     "from_half_diff",
     "reflect",
     "to_half_diff",
+    "turn",
 ]

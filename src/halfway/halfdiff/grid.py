@@ -27,7 +27,7 @@ from typing import NamedTuple
 import numpy as np
 from jaxtyping import Float64, Int
 
-from .._types import Angle, Directions, Indices, Mask
+from .._types import Angle, Directions, Indices, Mask, Part
 from ..errors import FormatError
 from .angles import HalfDiff, cosines, from_half_diff, to_half_diff
 
@@ -156,13 +156,19 @@ class Grid:
     def __str__(self) -> str:
         return " x ".join(map(str, self.shape))
 
-    def centres(self) -> HalfDiff:
-        """Angles of the cell centres, as arrays that broadcast to `shape`; 0 for an angle without an axis."""
+    def without(self, angle: str) -> "Grid":
+        """The grid of the other axes: for tables that do not depend on ``angle``."""
+        return Grid(tuple(axis for axis in self.axes if axis.angle != angle))
+
+    def centres(self, part: Part = ()) -> HalfDiff:
+        """Angles of the cell centres of a part, as arrays that broadcast to its shape; 0 for an angle without an axis."""
+        ranges = part if isinstance(part, tuple) else (part,)
         angles = {name: np.zeros((1,) * len(self.axes)) for name in HalfDiff._fields}
         for i, axis in enumerate(self.axes):
             along = [1] * len(self.axes)
-            along[i] = axis.size
-            angles[axis.angle] = axis.centres().reshape(along)
+            along[i] = -1
+            centres = axis.centres()[ranges[i]] if i < len(ranges) else axis.centres()
+            angles[axis.angle] = centres.reshape(along)
         return HalfDiff(**angles)
 
     def directions(self) -> tuple[Directions, Directions]:
