@@ -4,7 +4,7 @@ from . import gloss, metrics, quadrature
 from .albedo import directional_albedo
 from .albedo_operator import albedos
 from .anisotropy import anisotropy
-from .brdf import Brdf, require_isotropic
+from .brdf import Brdf, pieces, require_isotropic
 from .check import ValidityCard, check
 from .formula import IsotropicModel
 from .fresnel import fresnel
@@ -34,6 +34,7 @@ __all__ = [
     "lit_sphere",
     "metrics",
     "own_grid",
+    "pieces",
     "quadrature",
     "quality",
     "repair",

@@ -39,7 +39,7 @@ GridText = Annotated[
     typer.Option(
         "--grid",
         metavar="AxBxC",
-        help="Cells in theta_h, theta_d, phi_d. [default: a table's own; 90x90x180]",
+        help="Cells in theta_h, theta_d, phi_d, or AxPxBxC with phi_h. [default: a table's own; 90x90x180]",
     ),
 ]
 Force = Annotated[bool, typer.Option("--force", help="Replace what others wrote, or changed.")]

@@ -19,6 +19,7 @@ i) is half a cell off: see the conventions page of the docs.
 """
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import lru_cache, reduce
 from itertools import product
@@ -102,29 +103,31 @@ class Grid:
     def anisotropic(
         cls,
         n_theta_h: int = 64,
-        n_phi_h: int = 72,
+        n_phi_h: int | None = None,
         n_theta_d: int = 24,
-        n_phi_d: int = 36,
+        n_phi_d: int = 20,
         *,
         period: float = 2 * math.pi,
     ) -> "Grid":
-        """A grid for materials that depend on phi_h, as well as on what a MERL file has.
+        """A grid for materials that depend on phi_h, as well as on what a MERL file has; 66 MB of float32 a material.
 
-        ``period`` is the turn about the normal after which a material looks the same: pi for threads and brushes.
-        phi_d has the period pi here too, for exchanging light and viewer leaves h where it is.
+        ``period`` is the turn about the normal after which a material looks the same: pi for threads and brushes, and half
+        the cells along phi_h, of which there are 180 in a whole turn where no other number is asked for. phi_d has the period
+        pi here too, for exchanging light and viewer leaves h where it is. What the sizes cost and bring: docs/anisotropy.
 
         Raises
         ------
         FormatError
             When a size is no positive whole number, or a whole turn is not a whole number of periods.
         """
-        _check_sizes(n_theta_h, n_phi_h, n_theta_d, n_phi_d, such_as="48, 36, 24, 36")
         turns = 2 * math.pi / period if period > 0 else 0
         if turns < 1 or not math.isclose(turns, round(turns), rel_tol=1e-9):
             raise FormatError(
                 f"a material that looks the same after a turn of {period:.6g} about its normal is none: "
                 "expected 2 pi, or that by a whole number."
             )
+        n_phi_h = round(180 / turns) if n_phi_h is None else n_phi_h
+        _check_sizes(n_theta_h, n_phi_h, n_theta_d, n_phi_d, such_as="48, 36, 24, 36")
         return cls(
             (
                 Axis("theta_h", n_theta_h, math.pi / 2, power=2),
@@ -218,6 +221,15 @@ class Grid:
     def _positions(self, wi: Directions, wo: Directions) -> list[Angle]:
         angles = to_half_diff(wi, wo)
         return [axis.to_position(getattr(angles, axis.angle)) for axis in self.axes]
+
+
+def common_grid(grids: Iterable[Grid]) -> Grid:
+    """On which tables of all these grids can stand: the first with phi_h, or else the first; the MERL grid for none.
+
+    Where others are on grids of their own, they are sampled there.
+    """
+    grids = list(grids)
+    return next((grid for grid in grids if not grid.is_isotropic), next(iter(grids), MERL))
 
 
 def _check_sizes(*sizes: int, such_as: str) -> None:
