@@ -196,7 +196,7 @@ Image = Annotated[
         help=".png or .exr; .webp, .gif, .mp4 to animate; no suffix: a folder, a picture of each material.",
     ),
 ]
-SceneName = Annotated[str, typer.Option(help="teapot, spheres, sphere or trio.")]
+SceneName = Annotated[str, typer.Option(help="teapot, spheres, sphere, trio or brushed.")]
 Environment = Annotated[
     Path | None,
     typer.Option(
@@ -210,6 +210,10 @@ ShowEnv = Annotated[
 Turntable = Annotated[
     int,
     typer.Option(metavar="N", min=0, help="N pictures of each material, once around the objects."),
+]
+Turn = Annotated[
+    float,
+    typer.Option(metavar="DEGREES", help="Turn anisotropic materials about the normal."),
 ]
 Mesh = Annotated[Path | None, typer.Option(help="Mesh (.ply, .obj) in place of the object.")]
 Size = Annotated[str, typer.Option(metavar="PIXELS", help="Of one picture: 384, or 640x480.")]
