@@ -134,7 +134,7 @@ def test_a_terminal_without_a_letter_gets_its_number(tmp_path, small_library):
         ),
         (
             ("library", "build", "builtin:synthetic-2", "--grid", "4x0x2", "-o", "a.brdflib"),
-            "--grid '4x0x2' is no grid: expected cells in theta_h, theta_d and phi_d, such as 30x30x60.",
+            "--grid '4x0x2' is no grid: expected cells in theta_h, theta_d and phi_d, such as 30x30x60, or in",
         ),
     ],
 )
@@ -148,6 +148,7 @@ def test_a_mistake_is_one_line(run, tmp_path, words, message):
 
 def test_a_grid_is_written_by_its_sizes():
     assert arguments.parse_grid("30x20X60") == Grid.merl(30, 20, 60)
+    assert arguments.parse_grid("48x36x24x12") == Grid.anisotropic(48, 36, 24, 12)
     for text in ("30", "30x20", "axbxc", "1x1x1001", "-1x2x3"):
         with pytest.raises(HalfwayError, match="is no grid"):
             arguments.parse_grid(text)

@@ -2,12 +2,13 @@
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import assume, given
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 from strategies import TINY, directions
 
-from halfway.halfdiff import MERL, Axis, Grid, HalfDiff, cosines, from_half_diff, to_half_diff
+from halfway.errors import FormatError
+from halfway.halfdiff import MERL, Grid, HalfDiff, cosines, from_half_diff, to_half_diff
 
 UP = np.array([0.0, 0.0, 1.0])
 S = np.sqrt(0.5)
@@ -139,13 +140,74 @@ def test_corner_weights_are_convex(wi, wo):
     assert_allclose(weights.sum(), 1, atol=1e-12)
 
 
-def test_a_grid_with_another_axis_needs_no_other_code():
+ANISOTROPIC = Grid.anisotropic(3, 6, 4, 5)
+HALF_TURN = Grid.anisotropic(3, 6, 4, 5, period=np.pi)
+
+
+@pytest.mark.parametrize("grid", [ANISOTROPIC, HALF_TURN], ids=["whole-turn", "half-turn"])
+def test_a_grid_with_another_axis_needs_no_other_code(grid):
     """Anisotropic materials depend on phi_h too."""
-    grid = Grid((*TINY.axes, Axis("phi_h", 6, 2 * np.pi, periodic=True)))
     wi, wo = grid.directions()
-    assert wi.shape == (3, 4, 5, 6, 3)
+    assert wi.shape == (3, 6, 4, 5, 3)
     assert_allclose(grid.floor(wi, wo).cells[0].ravel(), np.arange(grid.size))
-    assert grid.multilinear(wi, wo).cells.shape == (16, 3, 4, 5, 6)
+    assert grid.multilinear(wi, wo).cells.shape == (16, 3, 6, 4, 5)
+    assert_allclose(grid.solid_angles().sum(), 8 * np.pi**2)
+    np.testing.assert_array_equal(grid.mask(), TINY.mask()[:, None].repeat(6, axis=1))
+
+
+def _placed(corners):
+    """What each cell counts, shape (n_cells,)."""
+    return np.bincount(corners.cells, corners.weights, minlength=ANISOTROPIC.size)
+
+
+def _turn(angle):
+    c, s = np.cos(angle), np.sin(angle)
+    return np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]])
+
+
+@given(directions(), directions(), st.integers(1, 5))
+def test_turning_by_cells_of_phi_h_moves_a_lookup_by_as_many(wi, wo, n):
+    turn = _turn(n * 2 * np.pi / 6)
+    assume(min(np.linalg.norm(wi[:2] + wo[:2]), np.linalg.norm(wi - wo)) > 1e-6)
+    still, turned = (
+        _placed(ANISOTROPIC.multilinear(r @ wi, r @ wo)).reshape(ANISOTROPIC.shape)
+        for r in (np.eye(3), turn)
+    )
+    assert_allclose(np.roll(still, n, axis=1), turned, atol=1e-6)
+
+
+@given(directions(), directions())
+def test_swapping_light_and_viewer_looks_up_the_same_cells(wi, wo):
+    """phi_d + pi is phi_d, and phi_h stays: reciprocity costs no cell twice."""
+    assume(np.linalg.norm(wi - wo) > 1e-6)
+    assert_allclose(
+        _placed(ANISOTROPIC.multilinear(wi, wo)),
+        _placed(ANISOTROPIC.multilinear(wo, wi)),
+        atol=1e-6,
+    )
+
+
+@given(directions(), directions())
+def test_after_its_period_a_grid_looks_up_the_same_cells(wi, wo):
+    assume(min(np.linalg.norm(wi[:2] + wo[:2]), np.linalg.norm(wi - wo)) > 1e-6)
+    still, turned = (
+        _placed(HALF_TURN.multilinear(r @ wi, r @ wo)) for r in (np.eye(3), _turn(np.pi))
+    )
+    assert_allclose(still, turned, atol=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("make", "said"),
+    [
+        (lambda: Grid.merl(3, 0, 5), "a grid of 3 x 0 x 5 cells is none: expected whole numbers"),
+        (lambda: Grid.anisotropic(3, 6, -4, 5), "a grid of 3 x 6 x -4 x 5 cells is none"),
+        (lambda: Grid.anisotropic(period=5.0), "same after a turn of 5 about its normal is none"),
+        (lambda: Grid.anisotropic(period=0.0), "same after a turn of 0 about its normal is none"),
+    ],
+)
+def test_a_grid_without_cells_or_turns_is_none(make, said):
+    with pytest.raises(FormatError, match=said):
+        make()
 
 
 def test_half_diff_of_open_axes_broadcasts():

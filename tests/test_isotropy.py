@@ -86,10 +86,3 @@ def test_anisotropic_tables_are_not_mixed():
 
 def test_they_are_stored_and_come_back():
     assert_allclose(library().brdf("a").values, brushed().values)
-
-
-def test_mitsuba_is_given_no_table_that_depends_on_phi_h():
-    from halfway.render import Renderer
-
-    with pytest.raises(AnisotropyError, match="its importance sampling"):
-        Renderer("sphere", size=(8, 8)).picture(brushed())

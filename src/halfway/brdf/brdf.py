@@ -1,23 +1,34 @@
 """What every BRDF can do: be evaluated, and be sampled on a grid.
 
 ``f_r(wi, wo)`` is in 1/sr and does not include the cosine. Directions are those of `halfway.halfdiff`.
+
+A material that depends on phi_h has more than a grid without that axis can hold: there the mean over turns of the surface
+about its normal stands for it, and a warning says how much they differ. One that does not is the same in all cells that
+differ in phi_h alone, and is computed once for them.
 """
 
-import math
+import warnings
 from abc import ABC, abstractmethod
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
+from functools import partial
 from typing import Any, ClassVar
 
 import numpy as np
 from jaxtyping import Float32
 
-from .._types import Angle, Directions, Mask, Part, Table, Values
+from .._types import Directions, Part, Table, Values
 from ..errors import AnisotropyError
-from ..halfdiff import Grid, HalfDiff, cosines, to_half_diff
+from ..halfdiff import Grid, HalfDiff, from_half_diff, turn
+
+N_TURNS = 16
+"""About the normal, over which a material is averaged that a grid cannot hold otherwise."""
 
 
 class Brdf(ABC):
     """A reflectance function of three colour channels (linear RGB)."""
+
+    cells_in_cache: ClassVar[int] = 32768
+    """Float64 arrays of this many stay in a core's cache: the MERL grid goes two to three times faster than in one piece."""
 
     @property
     @abstractmethod
@@ -37,24 +48,81 @@ class Brdf(ABC):
         """What it is, in a few words for people."""
         return f"a formula ({type(self).__name__})"
 
+    def turned_mean(self) -> "Brdf":
+        """The mean over turns about the normal, which is isotropic; itself if it is that already."""
+        return self if self.is_isotropic else TurnedMean(self)
+
     def sample_rows(self, grid: Grid, rows: Part) -> Table:
         """Samples at the cell centres of a part of the grid; NaN off the grid's mask.
 
         ``rows`` is a range of the first axis, or a tuple with a range of each of the leading axes.
         """
-        wi, wo = (directions[rows] for directions in grid.directions())
-        values = np.moveaxis(self.eval(wi, wo), -1, 0)
-        return np.where(grid.mask()[rows], values, np.nan).astype(np.float32)
+        if self.is_isotropic:
+            return _lifted(self._sample_rows, grid, rows)
+        if grid.is_isotropic:
+            return _mean_for(self, grid).sample_rows(grid, rows)
+        return self._sample_rows(grid, rows)
 
     @classmethod
     def sample_many(
         cls, brdfs: Sequence[Any], grid: Grid, rows: Part
     ) -> Float32[np.ndarray, "3 N *part"]:
         """`sample_rows` of each of ``brdfs``, all of this class: a formula may compute them together."""
+        if all(brdf.is_isotropic for brdf in brdfs):
+            return _lifted(partial(cls._sample_many, brdfs), grid, rows)
+        if grid.is_isotropic:
+            return np.stack([brdf.sample_rows(grid, rows) for brdf in brdfs], axis=1)
+        return cls._sample_many(brdfs, grid, rows)
+
+    def _sample_rows(self, grid: Grid, rows: Part) -> Table:
+        """`sample_rows` on a grid that has the angles that the material depends on."""
+        lit = grid.mask()[rows]
+        samples = np.full((3, *lit.shape), np.nan, np.float32)
+        for piece, centres in pieces(grid, rows, self.cells_in_cache):
+            # An angle that is 0 along an axis still has its cells.
+            pairs = from_half_diff(centres)
+            wi, wo = (np.broadcast_to(d, (*lit[piece].shape, 3))[lit[piece]] for d in pairs)
+            samples[:, piece][:, lit[piece]] = self.eval(wi, wo).T
+        return samples
+
+    @classmethod
+    def _sample_many(
+        cls, brdfs: Sequence[Any], grid: Grid, rows: Part
+    ) -> Float32[np.ndarray, "3 N *part"]:
         samples = np.empty((3, len(brdfs), *grid.mask()[rows].shape), np.float32)
         for i, brdf in enumerate(brdfs):
             samples[:, i] = brdf.sample_rows(grid, rows)
         return samples
+
+
+class TurnedMean(Brdf):
+    """The mean of a material over `N_TURNS` turns about its normal."""
+
+    def __init__(self, material: Brdf) -> None:
+        self.material = material
+        self.name = str(getattr(material, "name", ""))
+
+    @property
+    def is_isotropic(self) -> bool:
+        return True  # up to what is between the turns
+
+    @property
+    def about(self) -> str:
+        return f"the mean over turns of {self.material.about}"
+
+    def eval(self, wi: Directions, wo: Directions) -> Values:
+        total = np.zeros((*np.broadcast_shapes(wi.shape, wo.shape)[:-1], 3))
+        for angle in turns():
+            total += self.material.eval(turn(wi, angle), turn(wo, angle))
+        return total / N_TURNS
+
+    def fingerprint(self) -> bytes:
+        return b"turned mean of " + self.material.fingerprint()
+
+
+def turns() -> Iterator[float]:
+    """Angles, evenly over a whole turn."""
+    return (2 * np.pi * i / N_TURNS for i in range(N_TURNS))
 
 
 def require_isotropic(what: Brdf | Grid, quantity: str, *, name: str = "") -> None:
@@ -73,78 +141,38 @@ def require_isotropic(what: Brdf | Grid, quantity: str, *, name: str = "") -> No
         )
 
 
-class IsotropicModel(Brdf):
-    """A BRDF given by a formula in half/difference angles.
-
-    A subclass writes its formula once, in `at`, over arrays that broadcast. On a grid the angles of an axis are
-    then handed over unexpanded, so a factor that depends on theta_h alone is computed 90 times, not 1,458,000.
-    """
-
-    formula: ClassVar[str] = ""
-    """Which formula: part of `fingerprint`, so it changes whenever the values do."""
-
-    @property
-    def about(self) -> str:
-        return f"a fit ({self.formula})"
-
-    cells_in_cache: ClassVar[int] = 32768
-    """Float64 arrays of this many stay in a core's cache: the MERL grid goes two to three times faster than in one piece."""
-
-    @property
-    def is_isotropic(self) -> bool:
-        return True
-
-    @abstractmethod
-    def at(
-        self, theta_h: Angle, theta_d: Angle, phi_d: Angle, cos_i: Angle, cos_o: Angle
-    ) -> np.ndarray:
-        """f_r in 1/sr, shape (3, ...), of arrays that broadcast together; both cosines are positive."""
-
-    def eval(self, wi: Directions, wo: Directions) -> Values:
-        cos_i, cos_o = wi[..., 2], wo[..., 2]
-        lit = (cos_i > 0) & (cos_o > 0)
-        angles = to_half_diff(wi[lit], wo[lit])
-        values = np.zeros((*lit.shape, 3))
-        values[lit] = self.at(
-            angles.theta_h, angles.theta_d, angles.phi_d, cos_i[lit], cos_o[lit]
-        ).T
-        return values
-
-    def sample_rows(self, grid: Grid, rows: Part) -> Table:
-        return self._sample_rows(grid, rows, (3,))
-
-    def _sample_rows(self, grid: Grid, rows: Part, shape: tuple[int, ...]) -> np.ndarray:
-        """`sample_rows` of a formula that gives ``shape`` values for a pair of directions."""
-        lit = grid.mask()[rows]
-        samples = np.full((*shape, *lit.shape), np.nan, np.float32)
-        centres = _cut(grid.centres(), rows)
-        n_values = lit.size * math.prod(shape) // 3
-        n_rows = max(1, self.cells_in_cache * len(lit) // max(n_values, 1))
-        for start in range(0, len(lit), n_rows):
-            part = slice(start, start + n_rows)
-            values = self._at_centres(_cut(centres, part), lit[part])
-            np.copyto(samples[(*(slice(None) for _ in shape), part)], values, where=lit[part])
-        return samples
-
-    def _at_centres(self, centres: HalfDiff, lit: Mask) -> np.ndarray:
-        theta_h, _, theta_d, phi_d = centres
-        cos_i, cos_o = cosines(theta_h, theta_d, phi_d)
-        # Off the mask any positive cosine will do: the value is not kept.
-        cos_i, cos_o = (np.where(lit, cosine, 1.0) for cosine in (cos_i, cos_o))
-        return self.at(theta_h, theta_d, phi_d, cos_i, cos_o)
-
-    def fingerprint(self) -> bytes:
-        """Bytes that are the same for the same formula and numbers, on every machine; for a checksum."""
-        numbers = (np.asarray(value, "<f8").tobytes() for value in vars(self).values())
-        return b"".join([self.formula.encode(), b"\0", *numbers])
+def pieces(grid: Grid, rows: Part, n_cells: int) -> Iterator[tuple[slice, HalfDiff]]:
+    """Ranges of the first axis of a part of a grid, of about ``n_cells`` each, and the centres there."""
+    shape = grid.mask()[rows].shape
+    ranges = rows if isinstance(rows, tuple) else (rows,)
+    first = range(grid.shape[0])[ranges[0]] if ranges else range(grid.shape[0])
+    step = max(1, n_cells // max(1, int(np.prod(shape[1:]))))
+    for start in range(0, len(first), step):
+        of_all = slice(first.start + start, first.start + min(start + step, len(first)))
+        yield slice(start, start + step), grid.centres((of_all, *ranges[1:]))
 
 
-def _cut(centres: HalfDiff, part: Part) -> HalfDiff:
-    """The angles on a part of the grid; an axis along which one does not vary stays as it is."""
-    ranges = part if isinstance(part, tuple) else (part,)
-    return HalfDiff(*(_cut_one(np.asarray(angle), ranges) for angle in centres))
+def _mean_for(brdf: Brdf, grid: Grid) -> Brdf:
+    """What stands for an anisotropic material on a grid without phi_h, with a warning that says how good it is."""
+    from .anisotropy import anisotropy
+
+    warnings.warn(
+        f"{getattr(brdf, 'name', '') or 'the material'} is anisotropic: its values vary by {anisotropy(brdf):.0%} as it turns "
+        f"about its normal. Its mean over turns stands for it on a grid of {grid} cells; one with phi_h, such as "
+        "--grid 48x36x24x36, keeps it as it is.",
+        stacklevel=4,
+    )
+    return brdf.turned_mean()
 
 
-def _cut_one(angle: np.ndarray, ranges: tuple[slice, ...]) -> np.ndarray:
-    sizes = angle.shape[: len(ranges)]
-    return angle[tuple(slice(None) if n == 1 else r for n, r in zip(sizes, ranges, strict=True))]
+def _lifted(sample: Callable[[Grid, Part], np.ndarray], grid: Grid, rows: Part) -> np.ndarray:
+    """Samples of what does not depend on phi_h, with what is there of that axis behind the others' samples."""
+    if grid.is_isotropic:
+        return sample(grid, rows)
+    i = grid.axes.index(grid.axis("phi_h"))
+    ranges = rows if isinstance(rows, tuple) else (rows,)
+    samples = sample(grid.without("phi_h"), ranges[:i] + ranges[i + 1 :])
+    of_all = range(grid.shape[i])
+    n = len(of_all[ranges[i]]) if i < len(ranges) else len(of_all)
+    before = samples.ndim - len(grid.axes) + 1 + i
+    return np.repeat(np.expand_dims(samples, before), n, axis=before)

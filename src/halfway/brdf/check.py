@@ -21,13 +21,14 @@ import numpy as np
 
 from .._types import Directions, Mask, Table, Values
 from ..colour import LUMINANCE
-from ..halfdiff import MERL, Grid, from_half_diff
+from ..halfdiff import Grid, from_half_diff
 from .albedo_operator import albedos
-from .brdf import Brdf, require_isotropic
+from .anisotropy import anisotropy
+from .brdf import Brdf
 from .gloss import Profile
 from .layout import MASK_TOLERANCE, horizon, layout_of
 from .quadrature import spread_angles
-from .table import TabularBrdf, tabulate
+from .table import TabularBrdf, own_grid, tabulate
 
 RECIPROCITY_TOLERANCE = 0.01
 ALBEDO_TOLERANCE = 0.005
@@ -37,6 +38,7 @@ GRAZING_DEGREES = np.array([82.5, 85.0, 87.5, 89.0])
 
 _MIRROR = np.array([1.0, -1.0, 1.0])
 _N_PAIRS = 4096
+_GOLDEN_ANGLE = np.pi * (3 - np.sqrt(5))
 _STRIDE = 7  # of the cells whose median is taken; no divisor of an axis of the MERL grid
 _LEAST_CONTRAST = 1.1  # of a highlight to the floor around it
 
@@ -60,13 +62,15 @@ class ValidityCard:
     """Mean of |f_r(wi, wo) - f_r(wo, wi)| over the mean of f_r, both times cos_i cos_o."""
     bilateral_error: float
     """The same for a pair and its mirror image. No law: a brushed or woven material may tell them apart."""
+    anisotropy: float
+    """How much the values vary as the surface turns about its normal (`halfway.brdf.anisotropy`); 0 if isotropic."""
     max_albedo: float
-    """Largest of the channels, for light from 0 to 80 degrees."""
+    """Largest of the channels and azimuths, for light from 0 to 80 degrees."""
     max_albedo_degrees: float
     max_albedo_grazing: float
     """The same from 80 to 90 degrees, where measurements are least certain."""
     highlight_degrees: float | None
-    """theta_h of the brightest value near normal incidence; None without a highlight."""
+    """theta_h of the brightest value near normal incidence, in the mean over azimuths; None without a highlight."""
     highlight_width_degrees: float | None
     """From there to half of the height above the floor."""
     dynamic_range: float
@@ -102,9 +106,10 @@ class ValidityCard:
             return "; ".join(self.broken)
         width = self.highlight_width_degrees
         peak = "" if width is None else f", highlight {width:.2g} degrees wide"
+        turns = f", anisotropic by {self.anisotropy:.0%}" if self.anisotropy else ""
         return (
             f"reflects at most {self.max_albedo:.3f} (grazing {self.max_albedo_grazing:.3f}), "
-            f"{self.unmeasured:.1%} unmeasured, dynamic range {self.dynamic_range:.3g}{peak}"
+            f"{self.unmeasured:.1%} unmeasured, dynamic range {self.dynamic_range:.3g}{peak}{turns}"
             + "".join(f"; {note}" for note in self.notes)
         )
 
@@ -119,20 +124,16 @@ class ValidityCard:
         return {"ok": self.ok, **card, **more, "mask_is_the_grids": self.mask_is_the_grids}
 
 
-def check(brdf: Brdf, *, grid: Grid = MERL) -> ValidityCard:
+def check(brdf: Brdf, *, grid: Grid | None = None) -> ValidityCard:
     """The validity card of a BRDF; one that is no table is looked at on ``grid`` and at pairs in between.
 
-    Raises
-    ------
-    AnisotropyError
-        When it depends on phi_h.
+    By default that is the MERL grid, or `Grid.anisotropic` for what depends on phi_h.
     """
-    require_isotropic(brdf, "its check")
-    table = brdf if isinstance(brdf, TabularBrdf) else tabulate(brdf, grid)
+    table = brdf if isinstance(brdf, TabularBrdf) else tabulate(brdf, grid or own_grid(brdf))
     by_channel = ~np.isnan(table.values)
     measured = np.asarray(by_channel.all(axis=0))
     mask = table.grid.mask()
-    wi, wo = _pairs()
+    wi, wo = _pairs(brdf)
     with np.errstate(invalid="ignore", over="ignore"):
         # What is exchanged between two directions, so that grazing pairs count for what they carry.
         exchanged = wi[:, 2:] * wo[:, 2:]
@@ -153,6 +154,7 @@ def check(brdf: Brdf, *, grid: Grid = MERL) -> ValidityCard:
         n_below_horizon=int((measured & ~mask).sum()),
         reciprocity_error=_relative_difference(swapped, at_pairs),
         bilateral_error=_relative_difference(mirrored, at_pairs),
+        anisotropy=anisotropy(brdf),
         max_albedo=float(steep[worst]),
         max_albedo_degrees=float(STEEP_DEGREES[worst]),
         max_albedo_grazing=float(grazing.max()),
@@ -227,9 +229,12 @@ def _misplaced(card: ValidityCard) -> Iterator[str]:
         yield f"{card.n_below_horizon:,} cells below the horizon are measured"
 
 
-def _pairs() -> tuple[Directions, Directions]:
-    """Pairs above the horizon."""
-    wi, wo = from_half_diff(spread_angles(_N_PAIRS))
+def _pairs(brdf: Brdf) -> tuple[Directions, Directions]:
+    """Pairs above the horizon, at all azimuths if that matters."""
+    angles = spread_angles(_N_PAIRS)
+    if not brdf.is_isotropic:
+        angles = angles._replace(phi_h=np.arange(_N_PAIRS) * _GOLDEN_ANGLE)
+    wi, wo = from_half_diff(angles)
     lit = (wi[:, 2] > 0) & (wo[:, 2] > 0)
     return wi[lit], wo[lit]
 

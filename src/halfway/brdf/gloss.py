@@ -29,7 +29,7 @@ from jaxtyping import Float32, Float64, Int
 from .._types import Table
 from ..colour import LUMINANCE
 from ..halfdiff import Grid, HalfDiff, from_half_diff
-from .brdf import Brdf
+from .brdf import Brdf, turns
 
 FAINT, CLEAR = 0.1, 0.4
 """Shares of the value in the mirror direction up to which a lobe is body, and from which it is gloss."""
@@ -104,7 +104,7 @@ class Stretch(NamedTuple):
 
 
 class Profile(NamedTuple):
-    """Luminance over theta_h where light and viewer are near to each other, the mean over phi_d."""
+    """Luminance over theta_h where light and viewer are near to each other, the mean over phi_d, and phi_h if it matters."""
 
     theta_h: Float64[np.ndarray, " n"]
     """Of `PROFILE`, those that are measured."""
@@ -114,8 +114,9 @@ class Profile(NamedTuple):
     def of(cls, brdf: Brdf) -> "Profile":
         """The profile of a BRDF."""
         phi_d = np.pi * (np.arange(8) + 0.5) / 8
-        angles = PROFILE[:, None], np.zeros((1, 1)), np.full((1, 1), PROFILE_THETA_D), phi_d
-        values = brdf.eval(*from_half_diff(HalfDiff(*angles))) @ LUMINANCE
+        phi_h = np.array([0.0] if brdf.is_isotropic else list(turns()))[:, None]
+        angles = HalfDiff(PROFILE[:, None, None], phi_h, np.full((1, 1), PROFILE_THETA_D), phi_d)
+        values = (brdf.eval(*from_half_diff(angles)) @ LUMINANCE).reshape(len(PROFILE), -1)
         known = np.isfinite(values)
         counts = known.sum(axis=1)
         means = np.where(known, values, 0).sum(axis=1) / np.maximum(counts, 1)

@@ -16,7 +16,7 @@ import numpy as np
 from jaxtyping import Float, Float64, Int
 
 from .._types import Directions, Mask
-from ..halfdiff import MERL, Grid, HalfDiff, cosines, reflect
+from ..halfdiff import MERL, Grid, HalfDiff, cosines, reflect, turn
 
 GRAZING_DEGREES = 80.0
 """From the normal; Ngan et al. leave out what lies beyond."""
@@ -48,6 +48,11 @@ class HalfVectors(NamedTuple):
         lit = (cos_d > 0) & (other[:, 2] > least_cosine)
         other = other[lit]
         return cls(h[lit], np.broadcast_to(fixed, other.shape), other, cos_d[lit], dh[lit])
+
+    def turned(self, phi: float) -> "HalfVectors":
+        """The rule for the fixed direction at the azimuth ``phi``."""
+        h, fixed, other = (turn(v, phi) for v in self[:3])
+        return HalfVectors(h, fixed, other, self.cos_d, self.dh)
 
     @property
     def weights(self) -> Float64[np.ndarray, " n"]:
@@ -179,8 +184,12 @@ class Functional(NamedTuple):
 
     @classmethod
     def albedo(cls, grid: Grid, measured: Mask, theta_i: float) -> "Functional":
-        """The directional albedo for light from ``theta_i`` radians, as `halfway.brdf.directional_albedo` has it."""
-        rule = HalfVectors.at(theta_i, N_THETA_H, N_PHI_H)
+        """The directional albedo for light from ``theta_i`` radians, as `halfway.brdf.directional_albedo` has it.
+
+        With two nodes or more for a cell of phi_h, where the grid has that axis; the light's azimuth is 0.
+        """
+        cells = [round(a.size * 2 * np.pi / a.stop) for a in grid.axes if a.angle == "phi_h"]
+        rule = HalfVectors.at(theta_i, N_THETA_H, max(N_PHI_H, *(2 * n for n in cells), 0))
         return cls.integral(grid, measured, rule.fixed, rule.other, rule.weights)
 
     @classmethod

@@ -6,7 +6,7 @@
     negative       become 0
     albedo > 1     f_r(wi, wo) times min(s(theta_i), s(theta_o)), with s = 1 / albedo where that is above 1, and else 1
 
-The last keeps reciprocity, changes nothing that is lit and seen from angles that were sound, and leaves no albedo above 1:
+where an albedo is that from the worst azimuth, so that a surface is scaled the same however it is turned. The last keeps reciprocity, changes nothing that is lit and seen from angles that were sound, and leaves no albedo above 1:
 a'(theta_i) <= s(theta_i) a(theta_i), again up to the tolerance of the check.
 """
 
@@ -18,7 +18,6 @@ from numpy.lib.stride_tricks import sliding_window_view
 from .._types import Mask
 from ..halfdiff import Grid, cosines
 from .albedo_operator import albedos
-from .brdf import require_isotropic
 from .check import ALBEDO_TOLERANCE, GRAZING_DEGREES, STEEP_DEGREES
 from .table import TabularBrdf
 
@@ -34,14 +33,7 @@ class Repaired(NamedTuple):
 
 
 def repair(table: TabularBrdf) -> Repaired:
-    """The nearest sound table, as above; the same one if it was sound.
-
-    Raises
-    ------
-    AnisotropyError
-        When it depends on phi_h.
-    """
-    require_isotropic(table, "its repair")
+    """The nearest sound table, as above; the same one if it was sound."""
     values = np.array(table.values)
     mask = table.grid.mask()
     changes: list[str] = []

@@ -19,7 +19,7 @@ from jaxtyping import Float32, Float64
 
 from .._types import Directions, Part, Table, Values
 from ..errors import FormatError
-from ..halfdiff import Corners, Grid
+from ..halfdiff import MERL, Corners, Grid
 from .brdf import Brdf
 
 Interpolation = Literal["trilinear", "floor"]
@@ -102,9 +102,19 @@ class TabularBrdf(Brdf):
     def fingerprint(self) -> bytes:
         return hashlib.sha256(np.ascontiguousarray(self.values).data).digest()
 
-    def sample_rows(self, grid: Grid, rows: Part) -> Table:
+    def turned_mean(self) -> Brdf:
+        if self.is_isotropic:
+            return self
+        axis = self.grid.axes.index(self.grid.axis("phi_h"))
+        measured = ~np.isnan(self.values)
+        counts = measured.sum(axis=1 + axis)
+        total = np.sum(self.values, axis=1 + axis, where=measured, dtype=np.float64)
+        means = np.divide(total, counts, out=np.full_like(total, np.nan), where=counts > 0)
+        return TabularBrdf(means.astype(np.float32), self.grid.without("phi_h"), name=self.name)
+
+    def _sample_rows(self, grid: Grid, rows: Part) -> Table:
         if grid != self.grid:
-            return super().sample_rows(grid, rows)
+            return super()._sample_rows(grid, rows)
         return self.values[(slice(None), *(rows if isinstance(rows, tuple) else (rows,)))]
 
     def _blend(self, corners: Corners) -> Float64[np.ndarray, "3 n"]:
@@ -135,6 +145,13 @@ def half_scale(largest: float) -> float:
     A power of two, so that dividing by it loses nothing; 11 significant bits are at most .05 % off.
     """
     return 2.0 ** max(0, math.ceil(math.log2(largest / LARGEST_HALF))) if largest > 0 else 1.0
+
+
+def own_grid(brdf: Brdf) -> Grid:
+    """A table's grid; the MERL grid of another isotropic material, the usual one with phi_h of one that is not."""
+    if isinstance(brdf, TabularBrdf):
+        return brdf.grid
+    return MERL if brdf.is_isotropic else Grid.anisotropic()
 
 
 def tabulate(brdf: Brdf, grid: Grid, *, name: str = "") -> TabularBrdf:

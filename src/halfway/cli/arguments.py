@@ -61,18 +61,19 @@ def require_length(n: float) -> None:
 
 
 def parse_grid(text: str) -> "Grid | None":
-    """The MERL-like grid written as ``30x30x60``; None for no text."""
+    """The MERL-like grid written as ``30x30x60``, or one with phi_h, as ``48x36x24x36``; None for no text."""
     from ..halfdiff import Grid
 
     if not text:
         return None
     sizes = text.lower().split("x")
-    if len(sizes) != 3 or not all(size.isdecimal() and 0 < int(size) <= 1000 for size in sizes):
+    make = {3: Grid.merl, 4: Grid.anisotropic}.get(len(sizes))
+    if make is None or not all(size.isdecimal() and 0 < int(size) <= 1000 for size in sizes):
         raise ArgumentError(
-            f"--grid {text!r} is no grid: expected cells in theta_h, theta_d and phi_d, such as 30x30x60."
+            f"--grid {text!r} is no grid: expected cells in theta_h, theta_d and phi_d, such as 30x30x60, "
+            "or in theta_h, phi_h, theta_d and phi_d, such as 48x36x24x36."
         )
-    n_theta_h, n_theta_d, n_phi_d = map(int, sizes)
-    return Grid.merl(n_theta_h, n_theta_d, n_phi_d)
+    return make(*map(int, sizes))
 
 
 def parse_point(text: str) -> np.ndarray:

@@ -39,7 +39,7 @@ GridText = Annotated[
     typer.Option(
         "--grid",
         metavar="AxBxC",
-        help="Cells in theta_h, theta_d, phi_d. [default: a table's own; 90x90x180]",
+        help="Cells in theta_h, theta_d, phi_d, or AxPxBxC with phi_h. [default: a table's own; 90x90x180]",
     ),
 ]
 Force = Annotated[bool, typer.Option("--force", help="Replace what others wrote, or changed.")]
@@ -196,7 +196,7 @@ Image = Annotated[
         help=".png or .exr; .webp, .gif, .mp4 to animate; no suffix: a folder, a picture of each material.",
     ),
 ]
-SceneName = Annotated[str, typer.Option(help="teapot, spheres, sphere or trio.")]
+SceneName = Annotated[str, typer.Option(help="teapot, spheres, sphere, trio or brushed.")]
 Environment = Annotated[
     Path | None,
     typer.Option(
@@ -210,6 +210,10 @@ ShowEnv = Annotated[
 Turntable = Annotated[
     int,
     typer.Option(metavar="N", min=0, help="N pictures of each material, once around the objects."),
+]
+Turn = Annotated[
+    float,
+    typer.Option(metavar="DEGREES", help="Turn anisotropic materials about the normal."),
 ]
 Mesh = Annotated[Path | None, typer.Option(help="Mesh (.ply, .obj) in place of the object.")]
 Size = Annotated[str, typer.Option(metavar="PIXELS", help="Of one picture: 384, or 640x480.")]

@@ -24,6 +24,7 @@ def render(
     n: options.InStrip = 8,
     layout: options.Arrangement = Layout.STRIP,
     turntable: options.Turntable = 0,
+    turn: options.Turn = 0,
     exposure: options.Exposure = 0.0,
     seed: options.Seed = 0,
     device: options.Device = DeviceName.auto,
@@ -46,6 +47,7 @@ def render(
     halfway render new.binary -o new.png --size 1024 --quality final
     halfway render teflon chrome gold-paint -o three.png --scene trio
     halfway render gold-paint -o around.webp --turntable 24
+    halfway render brushed.zarr -o turned.png --scene brushed --turn 90
     halfway render chrome -o outside.png --scene sphere --env forest.exr --show-env
     """
     from halfway.recipes import open_materials
@@ -58,6 +60,7 @@ def render(
         spp=QUALITY[quality] if spp is None else spp,
         denoise=denoiser_available() if denoise is None else denoise,
         seed=seed,
+        turn_degrees=turn,
         device=device.value,
         work=work(),
     )

@@ -16,7 +16,7 @@ from jaxtyping import Float64
 from ..brdf import TabularBrdf
 from ..instruments import read_table
 from ..library import Library, LibraryRef
-from ..look import SMALL_GRID, Looks
+from ..look import Looks
 from ..recipes import Blend, Mixer, Recipe
 from .programme import Goals, Weights, solve
 from .wishes import Wishes
@@ -91,7 +91,7 @@ class Linearised:
 
     def _small(self, weights: Weights) -> Float64[np.ndarray, "n_instruments 3"]:
         dense = np.broadcast_to(weights, (3, 1, len(weights)))
-        grid = SMALL_GRID
+        grid = self._tables.grid
         values = self._tables.mix(dense, self._blend)[:, 0].reshape(3, *grid.shape)
         # Below the horizon a small table has the values of neighbours; a table has none.
         return read_table(TabularBrdf(np.where(grid.mask(), values, np.float32(np.nan)), grid))

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from ..brdf import Brdf
 from ..errors import FormatError, shown
-from ..halfdiff import Grid
+from ..halfdiff import MERL, Grid
 from ..locations import BUILTIN_PREFIX
 from ..models import ModelSet, builtin
 from ..origin import Origin
@@ -39,6 +39,8 @@ class SourceBrdf:
     origin: Origin
     _load: Callable[[], Brdf] = field(repr=False)
     _sha256: Callable[[], str] = field(repr=False)
+    usual_grid: Grid = MERL
+    """Where what is no table is sampled if nobody asks for another."""
 
     def load(self) -> Brdf:
         """Read it.
@@ -168,6 +170,7 @@ def _built_in(name: str) -> Iterator[SourceBrdf]:
             models.origin,
             partial(_itself, model),
             partial(_fingerprint, model),
+            models.grid,
         )
 
 

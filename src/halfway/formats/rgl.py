@@ -11,7 +11,7 @@ has one phi_i and takes phi_m relative to it.
 
 A renderer that traces rays from the camera puts the viewer in the place of ``i``, and so does `RglBrdf.eval`: it is
 what Mitsuba's `measured` shows (pbrt-v4 takes the light for the fixed direction in `f`, the viewer in `Sample_f`).
-Where a measurement is not reciprocal, a table takes the mean of both orders.
+Where a measurement is not reciprocal, a table takes the mean of both orders (`halfway.brdf.Measurement`).
 
 Source: J. Dupuy, W. Jakob, "An Adaptive Parameterization for Efficient Material Acquisition and Rendering", ACM TOG
 37(6), 2018; the names of the fields and their order are those of the readers (Mitsuba's `measured`,
@@ -20,27 +20,19 @@ rgl-epfl/brdf-loader).
 
 import hashlib
 import math
-import warnings
 from dataclasses import dataclass
-from functools import cached_property, reduce
 
 import numpy as np
 
-from .._types import Directions, Part, Table, Values
-from ..brdf import Brdf, quadrature
-from ..halfdiff import Grid, from_half_diff
+from .._types import Directions, Values
+from ..brdf import Measurement, anisotropy
 from .rgl_warp import Interpolant, Warp, slices
-
-_TURNS = 2 * np.pi / 16 * np.arange(16)
-"""Turns about the normal over which an anisotropic material is averaged."""
-_N_PAIRS = 1000
-"""Pairs of directions at which its values are compared."""
 
 _BLOCK = 1 << 14  # pairs evaluated at once: the temporaries stay in the cache
 
 
 @dataclass(frozen=True, eq=False)
-class RglBrdf(Brdf):
+class RglBrdf(Measurement):
     """A material of the RGL database; made by `rgl_reader.read_rgl`."""
 
     name: str
@@ -65,7 +57,7 @@ class RglBrdf(Brdf):
 
     @property
     def about(self) -> str:
-        kind = "isotropic" if self.is_isotropic else f"anisotropic by {self.anisotropy:.0%}"
+        kind = "isotropic" if self.is_isotropic else f"anisotropic by {anisotropy(self):.0%}"
         size = f"{len(self.theta_i)} x {len(self.phi_i)} directions"
         description = "".join(c for c in self.description if c.isprintable()).strip()
         return ", ".join(
@@ -94,39 +86,6 @@ class RglBrdf(Brdf):
             digest.update(repr(array.shape).encode())
             digest.update(np.ascontiguousarray(array).data)
         return digest.digest()
-
-    def sample_rows(self, grid: Grid, rows: Part) -> Table:
-        """Samples at the cell centres; what a table can hold of the material.
-
-        The mean over both orders of light and viewer, because the half/difference grid takes a material as
-        reciprocal, clamped at 0, and for an anisotropic material the mean over phi_h, with a warning that says how much
-        it varies.
-        """
-        brdf = self if self.is_isotropic else self.turned_mean()
-        mask = grid.mask()[rows]
-        wi, wo = (directions[rows][mask] for directions in grid.directions())
-        values = (brdf.eval(wi, wo) + brdf.eval(wo, wi)) / 2
-        result = np.full((3, *mask.shape), np.nan, np.float32)
-        result[:, mask] = np.maximum(values, 0).T
-        return result
-
-    def turned_mean(self) -> Brdf:
-        """The mean over turns of the surface about its normal, with a warning that says how much they differ."""
-        warnings.warn(
-            f"{self.name} is anisotropic: its values vary by {self.anisotropy:.0%} as it turns about its normal. "
-            f"The mean over {len(_TURNS)} turns stands for it.",
-            stacklevel=3,
-        )
-        return _TurnedMean(self)
-
-    @cached_property
-    def anisotropy(self) -> float:
-        """How much the values vary as the surface turns: standard deviation over mean, over pairs of directions; 0 if isotropic."""
-        if self.is_isotropic:
-            return 0.0
-        i, o = from_half_diff(quadrature.spread_angles(_N_PAIRS))
-        values = np.stack([self.eval(_turned(i, angle), _turned(o, angle)) for angle in _TURNS])
-        return float(values.std(axis=0).sum() / np.abs(values.mean(axis=0)).sum())
 
     def _in_blocks(self, i: Directions, o: Directions) -> np.ndarray:
         """f_r of pairs above the horizon, shape (n, 3)."""
@@ -163,30 +122,6 @@ class RglBrdf(Brdf):
         flip_x = np.where(i[:, 0] < 0, 1.0, -1.0) if n_parts == 4 else flip_y
         flip = np.stack([flip_x, flip_y, np.ones_like(flip_y)], axis=-1)
         return flip * i, flip * o
-
-
-def _turned(v: Directions, angle: float) -> Directions:
-    """The directions seen from a surface turned about its normal."""
-    c, s = math.cos(angle), math.sin(angle)
-    return v @ np.array([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]])
-
-
-@dataclass(frozen=True, eq=False)
-class _TurnedMean(Brdf):
-    """The mean of a material over turns about its normal."""
-
-    material: RglBrdf
-
-    @property
-    def is_isotropic(self) -> bool:
-        return True  # up to what is between the turns
-
-    def eval(self, wi: Directions, wo: Directions) -> Values:
-        turned = (self.material.eval(_turned(wi, angle), _turned(wo, angle)) for angle in _TURNS)
-        return reduce(np.add, turned) / len(_TURNS)
-
-    def fingerprint(self) -> bytes:
-        return b"turned mean of " + self.material.fingerprint()
 
 
 def _polar(v: Directions) -> tuple[np.ndarray, np.ndarray]:

@@ -1,7 +1,7 @@
 """Half/difference angles and the grids that sample them."""
 
-from .angles import HalfDiff, cosines, from_half_diff, reflect, to_half_diff
-from .grid import MERL, Axis, Corners, Grid
+from .angles import HalfDiff, cosines, from_half_diff, reflect, to_half_diff, turn
+from .grid import MERL, Axis, Corners, Grid, common_grid
 
 __all__ = [
     "MERL",
@@ -9,8 +9,10 @@ __all__ = [
     "Corners",
     "Grid",
     "HalfDiff",
+    "common_grid",
     "cosines",
     "from_half_diff",
     "reflect",
     "to_half_diff",
+    "turn",
 ]

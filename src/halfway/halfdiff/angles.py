@@ -34,7 +34,7 @@ def to_half_diff(wi: Directions, wo: Directions) -> HalfDiff:
     h = wi + wo
     h = h / np.linalg.norm(h, axis=-1, keepdims=True)
     theta_h, phi_h = _to_polar(h)
-    theta_d, phi_d = _to_polar(_rotate_y(_rotate_z(wi, -phi_h), -theta_h))
+    theta_d, phi_d = _to_polar(_rotate_y(turn(wi, -phi_h), -theta_h))
     return HalfDiff(theta_h, phi_h, theta_d, phi_d)
 
 
@@ -43,7 +43,7 @@ def from_half_diff(angles: HalfDiff) -> tuple[Directions, Directions]:
     theta_h, phi_h, theta_d, phi_d = np.broadcast_arrays(*angles)
     d = _from_polar(theta_d, phi_d)
     mirrored = d * np.array([-1.0, -1.0, 1.0])
-    wi, wo = (_rotate_z(_rotate_y(v, theta_h), phi_h) for v in (d, mirrored))
+    wi, wo = (turn(_rotate_y(v, theta_h), phi_h) for v in (d, mirrored))
     return wi, wo
 
 
@@ -57,6 +57,13 @@ def cosines(theta_h: Angle, theta_d: Angle, phi_d: Angle) -> tuple[Angle, Angle]
 def reflect(v: Directions, h: Directions, cos_d: Float[np.ndarray, "..."]) -> Directions:
     """The directions on the other side of half vectors: ``2 cos_d h - v`` with ``cos_d = v . h``, known to whoever asks."""
     return 2 * cos_d[..., None] * h - v
+
+
+def turn(v: Directions, angle: Angle | float) -> Directions:
+    """Directions turned about the normal by ``angle`` radians, from +x towards +y."""
+    x, y, z = np.moveaxis(v, -1, 0)
+    c, s = np.cos(angle), np.sin(angle)
+    return np.stack(np.broadcast_arrays(c * x - s * y, s * x + c * y, z), axis=-1)
 
 
 def _to_polar(v: Directions) -> tuple[Angle, Angle]:
@@ -74,9 +81,3 @@ def _rotate_y(v: Directions, angle: Angle) -> Directions:
     x, y, z = np.moveaxis(v, -1, 0)
     c, s = np.cos(angle), np.sin(angle)
     return np.stack([c * x + s * z, y, c * z - s * x], axis=-1)
-
-
-def _rotate_z(v: Directions, angle: Angle) -> Directions:
-    x, y, z = np.moveaxis(v, -1, 0)
-    c, s = np.cos(angle), np.sin(angle)
-    return np.stack([c * x - s * y, s * x + c * y, z], axis=-1)

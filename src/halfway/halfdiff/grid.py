@@ -19,6 +19,7 @@ i) is half a cell off: see the conventions page of the docs.
 """
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import lru_cache, reduce
 from itertools import product
@@ -27,7 +28,7 @@ from typing import NamedTuple
 import numpy as np
 from jaxtyping import Float64, Int
 
-from .._types import Angle, Directions, Indices, Mask
+from .._types import Angle, Directions, Indices, Mask, Part
 from ..errors import FormatError
 from .angles import HalfDiff, cosines, from_half_diff, to_half_diff
 
@@ -89,15 +90,48 @@ class Grid:
         FormatError
             When a size is no positive whole number.
         """
-        for size in (n_theta_h, n_theta_d, n_phi_d):
-            if size < 1 or size != int(size):
-                raise FormatError(
-                    f"a grid of {n_theta_h} x {n_theta_d} x {n_phi_d} cells is none: expected whole numbers from 1 on, "
-                    "such as 90, 90, 180."
-                )
+        _check_sizes(n_theta_h, n_theta_d, n_phi_d, such_as="90, 90, 180")
         return cls(
             (
                 Axis("theta_h", n_theta_h, math.pi / 2, power=2),
+                Axis("theta_d", n_theta_d, math.pi / 2),
+                Axis("phi_d", n_phi_d, math.pi, periodic=True),
+            )
+        )
+
+    @classmethod
+    def anisotropic(
+        cls,
+        n_theta_h: int = 64,
+        n_phi_h: int | None = None,
+        n_theta_d: int = 24,
+        n_phi_d: int = 20,
+        *,
+        period: float = 2 * math.pi,
+    ) -> "Grid":
+        """A grid for materials that depend on phi_h, as well as on what a MERL file has; 66 MB of float32 a material.
+
+        ``period`` is the turn about the normal after which a material looks the same: pi for threads and brushes, and half
+        the cells along phi_h, of which there are 180 in a whole turn where no other number is asked for. phi_d has the period
+        pi here too, for exchanging light and viewer leaves h where it is. What the sizes cost and bring: docs/anisotropy.
+
+        Raises
+        ------
+        FormatError
+            When a size is no positive whole number, or a whole turn is not a whole number of periods.
+        """
+        turns = 2 * math.pi / period if period > 0 else 0
+        if turns < 1 or not math.isclose(turns, round(turns), rel_tol=1e-9):
+            raise FormatError(
+                f"a material that looks the same after a turn of {period:.6g} about its normal is none: "
+                "expected 2 pi, or that by a whole number."
+            )
+        n_phi_h = round(180 / turns) if n_phi_h is None else n_phi_h
+        _check_sizes(n_theta_h, n_phi_h, n_theta_d, n_phi_d, such_as="48, 36, 24, 36")
+        return cls(
+            (
+                Axis("theta_h", n_theta_h, math.pi / 2, power=2),
+                Axis("phi_h", n_phi_h, period, periodic=True),
                 Axis("theta_d", n_theta_d, math.pi / 2),
                 Axis("phi_d", n_phi_d, math.pi, periodic=True),
             )
@@ -125,13 +159,19 @@ class Grid:
     def __str__(self) -> str:
         return " x ".join(map(str, self.shape))
 
-    def centres(self) -> HalfDiff:
-        """Angles of the cell centres, as arrays that broadcast to `shape`; 0 for an angle without an axis."""
+    def without(self, angle: str) -> "Grid":
+        """The grid of the other axes: for tables that do not depend on ``angle``."""
+        return Grid(tuple(axis for axis in self.axes if axis.angle != angle))
+
+    def centres(self, part: Part = ()) -> HalfDiff:
+        """Angles of the cell centres of a part, as arrays that broadcast to its shape; 0 for an angle without an axis."""
+        ranges = part if isinstance(part, tuple) else (part,)
         angles = {name: np.zeros((1,) * len(self.axes)) for name in HalfDiff._fields}
         for i, axis in enumerate(self.axes):
             along = [1] * len(self.axes)
-            along[i] = axis.size
-            angles[axis.angle] = axis.centres().reshape(along)
+            along[i] = -1
+            centres = axis.centres()[ranges[i]] if i < len(ranges) else axis.centres()
+            angles[axis.angle] = centres.reshape(along)
         return HalfDiff(**angles)
 
     def directions(self) -> tuple[Directions, Directions]:
@@ -181,6 +221,22 @@ class Grid:
     def _positions(self, wi: Directions, wo: Directions) -> list[Angle]:
         angles = to_half_diff(wi, wo)
         return [axis.to_position(getattr(angles, axis.angle)) for axis in self.axes]
+
+
+def common_grid(grids: Iterable[Grid]) -> Grid:
+    """On which tables of all these grids can stand: the first with phi_h, or else the first; the MERL grid for none.
+
+    Where others are on grids of their own, they are sampled there.
+    """
+    grids = list(grids)
+    return next((grid for grid in grids if not grid.is_isotropic), next(iter(grids), MERL))
+
+
+def _check_sizes(*sizes: int, such_as: str) -> None:
+    if any(size < 1 or size != int(size) for size in sizes):
+        raise FormatError(
+            f"a grid of {' x '.join(map(str, sizes))} cells is none: expected whole numbers from 1 on, such as {such_as}."
+        )
 
 
 MERL = Grid.merl()

@@ -35,7 +35,7 @@ from functools import partial
 import numpy as np
 
 from .._types import Angle, Mask
-from ..brdf import fresnel, quadrature, require_isotropic
+from ..brdf import fresnel, quadrature
 from ..halfdiff import Grid, HalfDiff, from_half_diff
 from ..look import body_mask
 
@@ -134,12 +134,5 @@ VERSION = 1
 
 
 def functionals(grid: Grid, measured: Mask) -> list[quadrature.Functional]:
-    """What each of `INSTRUMENTS` reads, of tables whose measured cells are ``measured``.
-
-    Raises
-    ------
-    AnisotropyError
-        When tables on the grid depend on phi_h.
-    """
-    require_isotropic(grid, "an attribute", name=f"a table on a grid of {grid} cells")
+    """What each of `INSTRUMENTS` reads, of tables whose measured cells are ``measured``; the light's azimuth is 0."""
     return [instrument(grid, measured) for instrument in INSTRUMENTS.values()]

@@ -33,7 +33,6 @@ class Readings:
         """The readings of ``library``; kept in the cache under its checksum."""
 
         def compute() -> dict[str, np.ndarray]:
-            functionals(library.grid, library.grid.mask())  # refuses what is anisotropic at once
             tasks = work.run(partial(_row, library), range(len(library)), label="Attributes")
             return {"values": np.stack(list(tasks))}
 
@@ -58,13 +57,8 @@ class Readings:
 
 
 def read_table(table: TabularBrdf) -> Reading:
-    """The readings of a table.
-
-    Raises
-    ------
-    AnisotropyError
-        When it may depend on phi_h.
-    """
+    """The readings of a table; of one that depends on phi_h, as an instrument reads the mean over turns of the sample."""
+    table = table.turned_mean()
     measured = ~np.isnan(table.values)
     usual = table.grid.mask()
     if all(np.array_equal(channel, usual) for channel in measured):

@@ -7,9 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from ..brdf import Brdf, TabularBrdf, tabulate
+from ..brdf import Brdf, TabularBrdf, own_grid, tabulate
 from ..errors import ControlError
-from ..halfdiff import MERL
 from ..library import open_library
 from ..recipes import Recipe, mix, open_materials
 from .attribute import Attribute, BodyColour, Lab, Ratio, Reading, Sum, Width
@@ -160,8 +159,6 @@ def attributes(what: Brdf | Recipe | str, *, library: str = "") -> dict[str, Any
     ------
     RecipeError
         When the words are no material, or several.
-    AnisotropyError
-        When the material depends on phi_h.
     """
     return of_table(table_of(what, library=library))
 
@@ -183,7 +180,7 @@ def table_of(what: Brdf | Recipe | str, *, library: str = "") -> TabularBrdf:
         case TabularBrdf():
             return what
         case Brdf():
-            return tabulate(what, MERL)
+            return tabulate(what, own_grid(what))
         case Recipe():
             return mix(open_library(library or what.library.address or what.library.name), what)
         case str():

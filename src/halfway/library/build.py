@@ -20,7 +20,7 @@ from ..brdf import TabularBrdf
 from ..errors import FormatError, LibraryError, OutputError
 from ..files import lock, require_space, scratch_folder
 from ..formats import Skipped, SourceBrdf, find_brdfs
-from ..halfdiff import MERL, Grid
+from ..halfdiff import Grid, common_grid
 from ..locations import BUILTIN_PREFIX, Location, RemotePath, to_location
 from ..origin import Origin
 from ..tasks import HERE, Work
@@ -57,7 +57,8 @@ def build_library(
     """Tabulate every BRDF found in ``sources`` (files, folders, zips, ``builtin:NAME``) into a library at ``path``.
 
     A source may be a stored library, the one at ``path`` as well: so materials are added to it; or a compact one. Materials that
-    are not tables are sampled on ``grid``, by default that of those that are, or else the MERL grid. Files that are damaged are
+    are not tables are sampled on ``grid``, by default that of those that are, or else their usual one; and so are isotropic tables
+    where the grid has phi_h. Files that are damaged are
     left out, and told. ``origin`` says what the files do not.
 
     Raises
@@ -176,13 +177,18 @@ def _common_grid(materials: Sequence[SourceBrdf], wanted: Grid | None) -> Grid:
     grids = {item.grid: item.name for item in reversed(materials) if item.grid is not None}
     if wanted is not None:
         grids = {wanted: "the library"} | grids
+    grid = wanted or common_grid(
+        [*grids, *(item.usual_grid for item in materials if item.grid is None)]
+    )
+    if not grid.is_isotropic:  # others are lifted to it
+        grids = {each: name for each, name in grids.items() if not each.is_isotropic}
     if len(grids) > 1:
         listed = ", ".join(f"{name} has {grid}" for grid, name in grids.items())
         raise LibraryError(
             f"the tables have {len(grids)} different grids ({listed}): a library has one. "
             "Build one library per grid."
         )
-    return next(iter(grids), MERL)
+    return grid
 
 
 def _common_origin(materials: Sequence[SourceBrdf], given: Origin) -> Origin:
@@ -243,11 +249,12 @@ def _tabulate(grid: Grid, material: SourceBrdf) -> _Row | Skipped:
         brdf = material.load()
     except FormatError as error:
         return Skipped.because(error, material.source)
-    if isinstance(brdf, TabularBrdf) and brdf.grid != grid:
+    lifted = brdf.is_isotropic and not grid.is_isotropic
+    if isinstance(brdf, TabularBrdf) and brdf.grid != grid and not lifted:
         return Skipped(
             material.source, f"is a table of {brdf.grid} cells, not {grid}", damaged=True
         )
-    table = brdf.values if isinstance(brdf, TabularBrdf) else brdf.sample_rows(grid, slice(None))
+    table = brdf.sample_rows(grid, slice(None))
     samples = np.ascontiguousarray(table, "<f4").reshape(3, -1)
     checksum = hashlib.sha256(samples.data).hexdigest()
     return _Row(Entry(material.name, material.source, material.sha256, checksum), samples)

@@ -1,6 +1,6 @@
 """From what a person writes to a library.
 
-builtin:merl-abc        published fits that come with the package
+builtin:merl-abc        published fits that come with the package; builtin:anisotropic, models
 folder.brdflib          a stored library, here or at a URL such as s3://bucket/folder.brdflib
 merl_nbrdf.zip          an archive of neural fits, decoded when asked for
 library.brdfc           a compact library (or its URL): principal components, reconstructed when asked for
@@ -10,6 +10,7 @@ import zipfile
 
 from ..errors import LibraryError
 from ..formats import read_nbrdf_archive
+from ..halfdiff import Grid
 from ..locations import BUILTIN_PREFIX, Location, RemotePath, to_location
 from ..models import BUILTIN, builtin
 from . import compact_file
@@ -19,8 +20,10 @@ from .procedural import ProceduralLibrary
 from .stored import StoredLibrary
 
 
-def open_library(where: str | Location) -> Library:
+def open_library(where: str | Location, *, grid: Grid | None = None) -> Library:
     """The library called ``where``: ``builtin:NAME``, a library folder (or its URL), or an archive of neural fits.
+
+    ``grid`` is that on which formulas are sampled, by default the usual one of the set; a stored library has its own.
 
     Raises
     ------
@@ -29,7 +32,9 @@ def open_library(where: str | Location) -> Library:
     """
     if str(where).startswith(BUILTIN_PREFIX):
         built_in = builtin(str(where).removeprefix(BUILTIN_PREFIX))
-        return ProceduralLibrary(str(where), built_in.models, origin=built_in.origin)
+        return ProceduralLibrary(
+            str(where), built_in.models, grid=grid or built_in.grid, origin=built_in.origin
+        )
     path = to_location(where)
     if isinstance(path, RemotePath):
         return CompactLibrary(path) if path.suffix == compact_file.SUFFIX else StoredLibrary(path)
@@ -39,7 +44,9 @@ def open_library(where: str | Location) -> Library:
         return CompactLibrary(path)
     if zipfile.is_zipfile(path):
         fits = read_nbrdf_archive(path)
-        return ProceduralLibrary(str(path), fits.models, origin=fits.origin, path=path)
+        return ProceduralLibrary(
+            str(path), fits.models, grid=grid or fits.grid, origin=fits.origin, path=path
+        )
     if path.exists():
         raise LibraryError(
             f"{path} is one file, not a library: `halfway library build {path} OTHER... -o NAME.brdflib` "

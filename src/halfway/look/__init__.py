@@ -5,13 +5,12 @@ from .images import Looks, most_different
 from .lit_sphere import JUDGING_SCENE, PACING_SCENE, SphereOperator, SphereScene
 from .portraits import N_SPHERES, portrait, recipes_png, table_png, to_png
 from .samples import CellSamples, body_colours, body_mask
-from .small_tables import SMALL_GRID
+from .small_tables import small_grid
 
 __all__ = [
     "JUDGING_SCENE",
     "N_SPHERES",
     "PACING_SCENE",
-    "SMALL_GRID",
     "CellSamples",
     "Looks",
     "SphereOperator",
@@ -26,6 +25,7 @@ __all__ = [
     "portrait",
     "recipes_png",
     "shown",
+    "small_grid",
     "table_png",
     "to_png",
 ]

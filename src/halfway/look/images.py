@@ -15,12 +15,13 @@ import numpy as np
 from jaxtyping import Float, Float32
 
 from ..errors import LibraryError
+from ..halfdiff import Grid
 from ..library import Library
 from ..recipes import Blend, Recipe
 from ..tasks import HERE, Work
 from .appearance import appearance, cielab_difference
 from .lit_sphere import PACING_SCENE, FilledSphere, SphereOperator, SphereScene
-from .small_tables import SMALL_GRID, SmallTables
+from .small_tables import SmallTables
 
 THINNING = 4
 """Every so many pixels are enough to choose materials by."""
@@ -72,7 +73,7 @@ class Looks:
         if blend is Blend.LINEAR:
             return self._sum(weights)
         flat = weights.reshape(3, -1, weights.shape[-1])
-        sphere = _sphere(self.scene, self.step)
+        sphere = _sphere(self.scene, self.tables.grid, self.step)
         chunks = (
             sphere.pictures(self.tables.mix(flat[:, start : start + N_AT_ONCE], blend))
             for start in range(0, flat.shape[1], N_AT_ONCE)
@@ -99,8 +100,8 @@ class Looks:
 
 
 @lru_cache(maxsize=6)
-def _sphere(scene: SphereScene, step: int) -> FilledSphere:
-    return FilledSphere.of(scene, SMALL_GRID, step=step)
+def _sphere(scene: SphereScene, grid: Grid, step: int) -> FilledSphere:
+    return FilledSphere.of(scene, grid, step=step)
 
 
 def most_different(images: Looks, n: int) -> list[str]:

@@ -12,6 +12,9 @@ measured cells agree the picture of a mix is the mix of the pictures, to roundin
 The sky is affine in w, so for an isotropic material its integral is made of four numbers that depend on the angle
 theta_o between n and wo alone, the moments of f_r cos(theta_i) with 1 and with the three components of w in the frame
 of the point. They are integrated over half vectors as in `halfway.brdf.directional_albedo` and tabulated in theta_o.
+
+An anisotropic material has a tangent field (see `sphere_rule`), and its moments are tabulated in the azimuth phi_o of the viewer
+from it as well.
 Pixels are averages over a square of points, those on the sphere; a highlight narrower than a pixel keeps its energy.
 """
 
@@ -20,22 +23,28 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
-from jaxtyping import Float, Float32, Float64, Int
+from jaxtyping import Float32, Float64, Int
 
 from .._types import Directions, Mask
-from ..brdf import quadrature, require_isotropic
-from ..halfdiff import Grid
+from ..halfdiff import Grid, turn
+from .sphere_rule import (
+    AXIS,
+    N_SKY_AZIMUTHS,
+    N_SKY_HALF_VECTORS,
+    N_SKY_NODES,
+    N_TURNED_HALF_VECTORS,
+    Frame,
+    Queries,
+    SkyNodes,
+    light_queries,
+    points,
+    sky_queries,
+)
 
 Angles = Float64[np.ndarray, "..."]
 Indices = Int[np.ndarray, "..."]
 Sparse = Any
 """A ``scipy.sparse.csr_array``, which is imported when one is made."""
-
-N_SKY_NODES = 32
-"""Angles theta_o at which the sky's moments are tabulated, linear between them."""
-N_SKY_HALF_VECTORS = (90, 32)
-"""Nodes in theta_h (square-root spaced) and phi_h of each moment. Against 96 nodes of (180, 128) the sky's share of a picture
-is off by at most .0013 (chrome .0005 in the mean, the others .0001 and less)."""
 
 
 @dataclass(frozen=True)
@@ -71,14 +80,14 @@ class SphereScene:
 
     def mask(self) -> Mask:
         """True at the pixels of the sphere, shape (size, size), the first row on top."""
-        _, pixel = _points(self)
+        _, pixel = points(self.size, self.n_points)
         mask = np.zeros(self.size**2, bool)
         mask[pixel] = True
         return mask.reshape(self.size, self.size)
 
     def fingerprint(self) -> str:
         """Hex digits that change when the scene or the way it is integrated does; part of a cache key."""
-        parts = (self, N_SKY_NODES, N_SKY_HALF_VECTORS)
+        parts = (self, N_SKY_NODES, N_SKY_HALF_VECTORS, AXIS, N_SKY_AZIMUTHS, N_TURNED_HALF_VECTORS)
         return hashlib.sha256(repr(parts).encode()).hexdigest()[:16]
 
 
@@ -119,32 +128,29 @@ class SphereOperator(NamedTuple):
     lights: Sparse
     """(n_pixels, n_queries), irradiance x cosine / points of the pixel."""
     moments: Sparse
-    """(n_nodes x 4, n_queries), solid angle x cosine x (1, w) in the point's frame."""
+    """(n_nodes x 4, n_queries), solid angle x cosine x (1, w) in the viewer's frame at the point."""
     sky: Sparse
     """(n_pixels, n_nodes x 4), the sky at each pixel in terms of the moments."""
 
     @classmethod
     def of(cls, scene: SphereScene, grid: Grid) -> "SphereOperator":
-        """The operator of ``scene`` for isotropic tables on ``grid``.
-
-        Raises
-        ------
-        AnisotropyError
-            When tables on ``grid`` depend on phi_h.
-        """
-        require_isotropic(grid, "its lit sphere", name=f"a table on a grid of {grid} cells")
-        frame, pixel = _points(scene)
-        light = _light_queries(scene.lights, frame)
-        theta_o, moment = _sky_queries()
-        wi = np.concatenate([light.wi, moment.wi])
-        cells, lookup = _lookup(grid, wi, np.concatenate([light.wo, moment.wo]))
+        """The operator of ``scene`` for tables on ``grid``."""
+        frame, pixel = points(scene.size, scene.n_points)
+        irradiance = np.array([light.irradiance for light in scene.lights])
+        light = light_queries([light.direction for light in scene.lights], irradiance, frame)
+        nodes = SkyNodes.of(grid)
+        moment = sky_queries(nodes)
+        wi, wo, phi_o = (np.concatenate(pair) for pair in zip(light[:3], moment[:3], strict=True))
+        if not grid.is_isotropic:  # the viewer's azimuth from the tangent, no more from itself
+            wi, wo = turn(wi, phi_o), turn(wo, phi_o)
+        cells, lookup = _lookup(grid, wi, wo)
         rows = np.unique(pixel, return_inverse=True)[1]
         return cls(
             cells,
             lookup,
             _light_sums(light, rows, len(wi)),
-            _moment_sums(moment, len(wi)),
-            _sky_sums(scene.sky, frame, rows, theta_o),
+            _moment_sums(moment, nodes.size, len(wi)),
+            _sky_sums(scene.sky, frame, rows, nodes),
         )
 
     def picture(self, row: Float32[np.ndarray, "3 p"]) -> Float32[np.ndarray, "n_pixels 3"]:
@@ -181,74 +187,6 @@ class FilledSphere(NamedTuple):
         return np.ascontiguousarray(seen.T.reshape(3, -1, len(seen)).transpose(1, 2, 0))
 
 
-class _Frame(NamedTuple):
-    """Local frames of points on the sphere, in the camera's coordinates; tangent towards the viewer."""
-
-    tangent: Directions
-    bitangent: Directions
-    normal: Directions
-    theta_o: Angles
-
-    def to_local(self, directions: list[tuple[float, float, float]]) -> Directions:
-        """Unit vectors along ``directions`` in each frame, shape (n_directions, n_points, 3)."""
-        unit = np.reshape(directions, (-1, 3))
-        unit = unit / np.linalg.norm(unit, axis=1, keepdims=True)
-        return np.stack([unit @ axis.T for axis in self[:3]], axis=-1)
-
-
-class _Queries(NamedTuple):
-    wi: Directions
-    wo: Directions
-    owner: Indices
-    """The point of the sphere, or the node of the sky, that each query belongs to."""
-    weight: Float[np.ndarray, " n"]
-    """Irradiance x cosine, or solid angle x cosine."""
-
-
-def _points(scene: SphereScene) -> tuple[_Frame, Indices]:
-    """The points of the raster that are on the sphere, and the pixel that each belongs to."""
-    n = scene.size * scene.n_points
-    x, y = np.meshgrid((np.arange(n) + 0.5) * 2 / n - 1, 1 - (np.arange(n) + 0.5) * 2 / n)
-    pixels = np.arange(scene.size**2).reshape(scene.size, scene.size)
-    pixel = pixels.repeat(scene.n_points, 0).repeat(scene.n_points, 1)
-    sin = np.hypot(x, y)
-    on_sphere = sin < 1
-    return _frame(np.arcsin(sin[on_sphere]), np.arctan2(y, x)[on_sphere]), pixel[on_sphere]
-
-
-def _frame(theta: Angles, phi: Angles) -> _Frame:
-    sin, cos, zero = np.sin(theta), np.cos(theta), np.zeros_like(theta)
-    across, up = np.cos(phi), np.sin(phi)
-    return _Frame(
-        np.stack([-cos * across, -cos * up, sin], axis=-1),
-        np.stack([up, -across, zero], axis=-1),
-        np.stack([sin * across, sin * up, cos], axis=-1),
-        theta,
-    )
-
-
-def _light_queries(lights: tuple[Light, ...], frame: _Frame) -> _Queries:
-    wi = frame.to_local([light.direction for light in lights])
-    light, point = np.nonzero(wi[..., 2] > 0)
-    wi = wi[light, point]
-    irradiance = np.array([light.irradiance for light in lights])
-    return _Queries(wi, _viewer(frame.theta_o[point]), point, irradiance[light] * wi[:, 2])
-
-
-def _sky_queries() -> tuple[Angles, _Queries]:
-    """The angles theta_o of the nodes, and the quadrature of their moments."""
-    theta_o = (np.arange(N_SKY_NODES) + 0.5) * np.pi / 2 / N_SKY_NODES
-    rules = [quadrature.HalfVectors.at(theta, *N_SKY_HALF_VECTORS) for theta in theta_o]
-    owner = np.repeat(np.arange(N_SKY_NODES), [len(rule.dh) for rule in rules])
-    _, wo, wi, _, _ = (np.concatenate(part) for part in zip(*rules, strict=True))
-    weights = np.concatenate([rule.weights for rule in rules])
-    return theta_o, _Queries(wi, wo, owner, weights)
-
-
-def _viewer(theta_o: Angles) -> Directions:
-    return np.stack([np.sin(theta_o), np.zeros_like(theta_o), np.cos(theta_o)], axis=-1)
-
-
 def _lookup(grid: Grid, wi: Directions, wo: Directions) -> tuple[Indices, Sparse]:
     from scipy.sparse import csr_array
 
@@ -266,35 +204,32 @@ def _lookup(grid: Grid, wi: Directions, wo: Directions) -> tuple[Indices, Sparse
     return cells, csr_array(entries, shape=(n_queries, len(cells)))
 
 
-def _light_sums(light: _Queries, rows: Indices, n_queries: int) -> Sparse:
+def _light_sums(light: Queries, rows: Indices, n_queries: int) -> Sparse:
     share = 1 / np.bincount(rows)
     pixel = rows[light.owner]
     column = np.arange(len(pixel))
     return _sparse(light.weight * share[pixel], pixel, column, (len(share), n_queries))
 
 
-def _moment_sums(moment: _Queries, n_queries: int) -> Sparse:
+def _moment_sums(moment: Queries, n_nodes: int, n_queries: int) -> Sparse:
     factors = np.column_stack([np.ones(len(moment.wi)), moment.wi])
     row = 4 * moment.owner[:, None] + np.arange(4)
     # The sky's queries come last.
     column = np.arange(n_queries - len(moment.wi), n_queries)[:, None].repeat(4, axis=1)
     weight = moment.weight[:, None] * factors
-    return _sparse(weight.ravel(), row.ravel(), column.ravel(), (4 * N_SKY_NODES, n_queries))
+    return _sparse(weight.ravel(), row.ravel(), column.ravel(), (4 * n_nodes, n_queries))
 
 
-def _sky_sums(sky: Sky, frame: _Frame, rows: Indices, theta_o: Angles) -> Sparse:
+def _sky_sums(sky: Sky, frame: Frame, rows: Indices, nodes: SkyNodes) -> Sparse:
     mean, slope = (sky.zenith + sky.nadir) / 2, (sky.zenith - sky.nadir) / 2
     (up,) = frame.to_local([sky.up])
     radiance = np.column_stack([np.full(len(up), mean), slope * up])
     radiance /= np.bincount(rows)[rows, None]
-    position = np.clip((frame.theta_o - theta_o[0]) / (theta_o[1] - theta_o[0]), 0, N_SKY_NODES - 1)
-    lower = np.minimum(position.astype(np.intp), N_SKY_NODES - 2)
-    fraction = position - lower
-    node = np.stack([lower, lower + 1])
-    weight = np.stack([1 - fraction, fraction])[..., None] * radiance
+    node, share = nodes.around(frame.theta_o, frame.phi_o())
+    weight = share[..., None] * radiance
     column = 4 * node[..., None] + np.arange(4)
     row = np.broadcast_to(rows[:, None], column.shape)
-    shape = (int(rows.max()) + 1, 4 * N_SKY_NODES)
+    shape = (int(rows.max()) + 1, 4 * nodes.size)
     return _sparse(weight.ravel(), row.ravel(), column.ravel(), shape)
 
 

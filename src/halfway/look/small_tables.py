@@ -20,8 +20,18 @@ from ..tasks import HERE, Work
 from .samples import body_mask
 
 SMALL_GRID = Grid.merl(90, 15, 18)
+N_PHI_H = 24
+"""Cells along phi_h in a whole turn, of materials that depend on it."""
 N_KEPT = 256
-"""Tables kept in memory: .3 MB each, and as much again twice for body and gloss."""
+"""Tables kept in memory: .3 MB each, and as much again twice for body and gloss; fewer where they are larger."""
+
+
+def small_grid(grid: Grid) -> Grid:
+    """The grid of the small tables of materials on ``grid``."""
+    if grid.is_isotropic:
+        return SMALL_GRID
+    period = grid.axis("phi_h").stop
+    return Grid.anisotropic(48, round(N_PHI_H * period / (2 * np.pi)), 8, 10, period=period)
 
 
 class SmallTables:
@@ -29,15 +39,17 @@ class SmallTables:
 
     def __init__(self, library: Library, *, work: Work = HERE) -> None:
         self._library = library
-        self._row = lru_cache(N_KEPT)(partial(_kept, library, work))
-        self._parts = lru_cache(N_KEPT)(self._parted)
+        self.grid = small_grid(library.grid)
+        n_kept = N_KEPT * SMALL_GRID.size // self.grid.size
+        self._row = lru_cache(n_kept)(partial(_kept, library, work))
+        self._parts = lru_cache(n_kept)(self._parted)
 
     def __reduce__(self) -> tuple[Any, ...]:
         """They travel without what they keep."""
         return SmallTables, (self._library,)
 
     def _parted(self, i: int) -> gloss.Gloss:
-        return gloss.Gloss.of(self._row(i), SMALL_GRID)
+        return gloss.Gloss.of(self._row(i), self.grid)
 
     def mix(
         self, weights: Float[np.ndarray, "3 k N"], blend: Blend
@@ -48,7 +60,7 @@ class SmallTables:
         if blend.aligns:
             parts = [self._parts(i) for i in used]
             mixes = (
-                aligned_mean(parts, each, blend.mapping, SMALL_GRID) for each in few.swapaxes(0, 1)
+                aligned_mean(parts, each, blend.mapping, self.grid) for each in few.swapaxes(0, 1)
             )
             return np.stack(list(mixes), axis=1)
         mapped = blend.mapping.to(np.stack([self._row(i) for i in used], axis=1))
@@ -58,18 +70,20 @@ class SmallTables:
         self, weights: Float[np.ndarray, "3 k N"], blend: Blend
     ) -> Float[np.ndarray, "k 3"]:
         """Body colours of k mixes, 1/sr."""
-        cells = np.flatnonzero(body_mask(SMALL_GRID))
+        cells = np.flatnonzero(body_mask(self.grid))
         return self.mix(weights, blend)[..., cells].mean(axis=-1, dtype=np.float64).T
 
 
 def _kept(library: Library, work: Work, i: int) -> Float32[np.ndarray, "3 p"]:
-    key = f"small-1-{'x'.join(map(str, SMALL_GRID.shape))}-{library.material_checksums[i]}"
+    shape = "x".join(map(str, small_grid(library.grid).shape))
+    key = f"small-1-{shape}-{library.material_checksums[i]}"
     return work.cached(key, lambda: {"table": _small(library, i)})["table"]
 
 
 def _small(library: Library, i: int) -> Float32[np.ndarray, "3 p"]:
     table = TabularBrdf(library.row(i).reshape(3, *library.grid.shape), library.grid)
-    lobes = gloss.to_lobes(np.array(tabulate(table, SMALL_GRID).values), SMALL_GRID)
+    grid = small_grid(library.grid)
+    lobes = gloss.to_lobes(np.array(tabulate(table, grid).values), grid)
     for row, following in zip(
         lobes[:, :-1].swapaxes(0, 1), lobes[:, 1:].swapaxes(0, 1), strict=True
     ):

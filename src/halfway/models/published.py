@@ -12,7 +12,8 @@ from typing import Final
 
 import numpy as np
 
-from ..brdf import IsotropicModel
+from ..brdf import Brdf
+from ..halfdiff import MERL, Grid
 from ..origin import Origin
 from .abc import AbcModel
 from .sgd import SgdModel
@@ -25,8 +26,10 @@ class ModelSet:
     name: str
     origin: Origin
     """Says that they are no measurements."""
-    models: Mapping[str, IsotropicModel]
+    models: Mapping[str, Brdf]
     """By material name, in the order of the database."""
+    grid: Grid = MERL
+    """On which they are sampled where no other is asked for."""
 
 
 PUBLISHED: Final = ("merl-abc", "merl-sgd")
@@ -65,7 +68,7 @@ def published(name: str) -> ModelSet:
 _Row = Mapping[str, str]
 
 
-def _read(file: str, to_model: Callable[[_Row], IsotropicModel]) -> Mapping[str, IsotropicModel]:
+def _read(file: str, to_model: Callable[[_Row], Brdf]) -> Mapping[str, Brdf]:
     text = files("halfway.models").joinpath("data", file).read_text(encoding="utf-8")
     lines = (line for line in text.splitlines() if not line.startswith("#"))
     return MappingProxyType({row["name"]: to_model(row) for row in csv.DictReader(lines)})

@@ -1,6 +1,7 @@
 """Sets of models that need no file: published fits, and synthetic materials of any number.
 
 merl-abc, merl-sgd         the 100 MERL materials, as published fits
+anisotropic                some forty brushed metals, plastics and cloths, as models
 synthetic-N, synthetic-N-S N synthetic materials, of seed 0 or S
 """
 
@@ -9,10 +10,11 @@ from functools import cache
 
 from ..errors import LibraryError
 from ..origin import Origin
+from .brushed import anisotropic
 from .published import PUBLISHED, ModelSet, published
 from .synthetic import synthetic
 
-BUILTIN = (*PUBLISHED, "synthetic-N")
+BUILTIN = (*PUBLISHED, "anisotropic", "synthetic-N")
 """What there is; N is a number of materials."""
 MOST_SYNTHETIC = 100_000
 
@@ -28,6 +30,8 @@ def builtin(name: str) -> ModelSet:
     """
     if name in PUBLISHED:
         return published(name)
+    if name == "anisotropic":
+        return anisotropic()
     numbers = re.fullmatch(r"synthetic-(\d{1,9})(?:-(\d{1,9}))?", name)
     if numbers is None:
         raise LibraryError(

@@ -96,7 +96,7 @@ class SyntheticModel(IsotropicModel):
         )
 
     @classmethod
-    def sample_many(
+    def _sample_many(
         cls, brdfs: Sequence[Any], grid: Grid, rows: Part
     ) -> Float32[np.ndarray, "3 N *part"]:
         shape = grid.mask()[rows].shape
@@ -105,7 +105,7 @@ class SyntheticModel(IsotropicModel):
         for start in range(0, len(brdfs), step):
             some = brdfs[start : start + step]
             model = _stacked(some, len(grid.axes))
-            samples[:, start : start + step] = model._sample_rows(grid, rows, (3, len(some)))
+            samples[:, start : start + step] = model._sample_shaped(grid, rows, (3, len(some)))
         return samples
 
     def distribution(self, theta_h: Angle, lobe: int) -> Angle:

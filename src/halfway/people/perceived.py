@@ -135,10 +135,10 @@ def library_scores(
 
 
 def samples(brdf: Brdf) -> Values:
-    """Values f c of a material at the pairs of directions that perception looks at."""
+    """Values f c of a material, or of its mean over turns, at the pairs of directions that perception looks at."""
     wi, wo = _pairs()
     cosines = np.maximum(wi[:, 2] * wo[:, 2], LEAST_COSINES)
-    return brdf.eval(wi, wo).T * cosines
+    return brdf.turned_mean().eval(wi, wo).T * cosines
 
 
 def lightness(scores: Scores) -> Float64[np.ndarray, "*k n_components"]:

@@ -20,9 +20,9 @@ import numpy as np
 from jaxtyping import Float32, Float64
 
 from .._types import Table
-from ..brdf import TabularBrdf, albedos, gloss, require_isotropic
+from ..brdf import TabularBrdf, albedos, gloss
 from ..errors import LibraryError, RecipeError
-from ..halfdiff import Grid
+from ..halfdiff import MERL, Grid
 from ..library import Library, open_library
 from .blend import Blend
 from .blend import Mapping as BlendMapping
@@ -30,16 +30,19 @@ from .recipe import Recipe
 
 N_AT_ONCE = 8
 """Mixes that numpy sums: compiled code is twice as fast, and takes a second to load."""
+KEPT_BYTES = 24 * 12 * MERL.size
+"""Of the rows that a mixer keeps, or `LEAST_ROWS` where they are larger: as many as a recipe has."""
+LEAST_ROWS = 8
 _CHUNK = 1 << 15  # samples summed at once: the sums stay in a core's cache
 _ALBEDO_ANGLES = np.radians([0.0, 20.0, 40.0, 60.0, 70.0, 80.0])
 """From which a mix of stretched highlights reflects no more than it may."""
 
 
 class Mixer:
-    """Mixes recipes of one library, keeping the rows it used last (`n_rows` of 17.5 MB each on the MERL grid)."""
+    """Mixes recipes of one library, keeping the rows it used last (24 of 17.5 MB each on the MERL grid)."""
 
-    def __init__(self, library: Library, *, n_rows: int = 24) -> None:
-        require_isotropic(library.grid, "a mix", name=library.name)
+    def __init__(self, library: Library, *, n_rows: int | None = None) -> None:
+        n_rows = n_rows or max(LEAST_ROWS, int(KEPT_BYTES / (12 * library.grid.size)))
         self._library = library
         self._n_rows = n_rows
         # Not of a method: a mixer that is done with shall go at once, with its rows.

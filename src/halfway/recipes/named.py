@@ -8,8 +8,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..brdf import Brdf, TabularBrdf, directional_albedo, tabulate
-from ..halfdiff import MERL, Grid
+from ..brdf import Brdf, TabularBrdf, directional_albedo, own_grid, tabulate
+from ..halfdiff import Grid
 from ..library import Library
 from .mixing import Mixer
 from .recipe import Recipe
@@ -39,11 +39,11 @@ class NamedBrdf(NamedTuple):
         return cls(label, load, made_of(library, recipe), label, library, recipe)
 
     def table(self, grid: Grid | None = None) -> TabularBrdf:
-        """The material on a grid: this one, or its own, or the MERL grid where it has none."""
+        """The material on a grid: this one, or its own, or the usual one where it has none."""
         brdf = self.load()
         if isinstance(brdf, TabularBrdf) and grid in (None, brdf.grid):
             return brdf
-        return tabulate(brdf, grid or MERL, name=self.label)
+        return tabulate(brdf, grid or own_grid(brdf), name=self.label)
 
     def facts(self) -> dict[str, Any]:
         """What it is, for people and programs, as JSON."""
@@ -52,9 +52,8 @@ class NamedBrdf(NamedTuple):
             "name": self.label,
             "is": brdf.about,
             "description": self.library.origin.description if self.library else "",
-            # Of an anisotropic one for light along the tangent: as a function it is not asked whether it is one.
             "albedo_20_degrees": directional_albedo(
-                brdf.eval, ALBEDO_ANGLE, n_theta_h=90, n_phi_h=24
+                brdf, ALBEDO_ANGLE, n_theta_h=90, n_phi_h=24
             ).tolist(),
         }
 

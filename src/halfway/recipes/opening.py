@@ -22,7 +22,7 @@ from typing import Any
 from ..brdf import TabularBrdf
 from ..errors import RecipeError
 from ..formats import read_brdf
-from ..halfdiff import MERL
+from ..halfdiff import common_grid
 from ..library import DEFAULT_LIBRARY, Library, LibraryRef, Origin, ProceduralLibrary, open_library
 from ..locations import Location, RemotePath, to_location
 from .blend import Blend
@@ -197,14 +197,18 @@ def _of_weights(where: str, text: str) -> tuple[Library, Recipe]:
 
 
 def _with_files(library: Library, names: Sequence[str], files: Sequence[str]) -> Library:
-    """The library of these materials alone, of which some are files; on the grid of the first file that has one."""
+    """The library of these materials alone, of which some are files; on the grid of the first that has one, or that has phi_h."""
     read = {name: read_brdf(name) for name in files}
     brdfs = {name: read[name] if name in read else library.brdf(name) for name in names}
-    grids = (brdf.grid for brdf in brdfs.values() if isinstance(brdf, TabularBrdf))
+    grids = (
+        own_grid(brdf)
+        for brdf in brdfs.values()
+        if isinstance(brdf, TabularBrdf) or not brdf.is_isotropic
+    )
     only = len(files) == len(names)
     called = ", ".join([*files, *([] if only else [library.name])])
     origin = Origin() if only else library.origin
-    return ProceduralLibrary(called, brdfs, grid=next(grids, MERL), origin=origin)
+    return ProceduralLibrary(called, brdfs, grid=common_grid(grids), origin=origin)
 
 
 # Documents

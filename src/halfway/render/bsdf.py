@@ -11,6 +11,9 @@ Angles come from the two directions without acos, so that float32 resolves the f
     theta_h = atan2(|H_xy|, H_z)        theta_d = atan2(|u|, |H|)
     phi_d   = atan2((H_x u_y - H_y u_x) |H|, (H_x u_x + H_y u_y) H_z - u_z |H_xy|^2)
 
+A table with an axis of phi_h is laid along the tangent of the surface, which is the x of Mitsuba's shading frame: where the
+first texture coordinate grows. It may be turned against that about the normal.
+
 In a spectral variant the value at a wavelength is that of three smooth primaries (`halfway.formats.spectra`), so that
 its colour under D65 is the table's, and a mix has the mix of the spectra.
 
@@ -26,7 +29,7 @@ import drjit as dr
 import mitsuba as mi
 import numpy as np
 
-from ..brdf import TabularBrdf, require_isotropic, tabulate
+from ..brdf import TabularBrdf, tabulate
 from ..errors import RenderError
 from ..formats import WAVELENGTHS, read_brdf, smooth_primaries
 from ..halfdiff import MERL, Axis, Grid
@@ -51,32 +54,36 @@ class TableBsdf(mi.BSDF):
         In place of a file: ``"gold-paint=0.7, teflon=0.3"``.
     library : string
         Of the recipe: ``builtin:NAME`` (by default ``builtin:merl-abc``), a library folder, an archive of neural fits.
-    values : tensor, float32, shape (3, n_theta_h, n_theta_d, n_phi_d)
-        In place of a file: f_r in 1/sr at the cell centres of a MERL grid, NaN where unmeasured.
+    values : tensor, float32, shape (3, n_theta_h, n_theta_d, n_phi_d) or (3, n_theta_h, n_phi_h, n_theta_d, n_phi_d)
+        In place of a file: f_r in 1/sr at the cell centres of a MERL grid, or of an anisotropic one, NaN where unmeasured.
+    turn : float
+        By how many degrees an anisotropic material is turned against the tangent, counter-clockwise seen from outside.
 
-    Traversable: ``table``, the samples as a flat buffer of 4 floats a cell (see `pack`). After an update the
+    Traversable: ``table``, the samples as a flat buffer of 4 floats a cell (see `pack`), and ``turn``. After an update the
     importance sampling follows the new table; nothing is compiled again.
     """
 
     def __init__(self, props: Any, brdf: TabularBrdf | None = None) -> None:
         super().__init__(props)
         brdf = brdf or _read(props)
-        require_isotropic(brdf, "its importance sampling")
         self.grid = brdf.grid
+        self.turn = dr.opaque(mi.Float, props.get("turn", 0.0))
         self.table = pack(brdf)
         self.sampling = HalfVectorSampling(brdf.grid)
         self.sampling.follow(self.values)
         self.primaries = buffer(_primaries()) if mi.is_spectral else None
         self.m_flags = mi.BSDFFlags.GlossyReflection | mi.BSDFFlags.FrontSide
+        if not self.grid.is_isotropic:
+            self.m_flags |= mi.BSDFFlags.Anisotropic
         self.m_components = [self.m_flags]
 
     def eval(self, ctx: Any, si: Any, wo: Any, active: Any = True) -> Any:
-        wi, wo = wo, si.wi
+        wi, wo = self._laid(wo), self._laid(si.wi)
         active = active & self._enabled(ctx) & (wi.z > 0) & (wo.z > 0)
         return self._spectrum(self.values(wi, wo, active) * wi.z, si) & active
 
     def pdf(self, ctx: Any, si: Any, wo: Any, active: Any = True) -> Any:
-        wi, wo = wo, si.wi
+        wi, wo = self._laid(wo), self._laid(si.wi)
         active = active & self._enabled(ctx) & (wi.z > 0) & (wo.z > 0)
         return dr.select(active, self.sampling.pdf(wi, wo, active), 0)
 
@@ -88,7 +95,8 @@ class TableBsdf(mi.BSDF):
     ) -> tuple[Any, Any]:
         active = active & self._enabled(ctx) & (si.wi.z > 0)
         bs: Any = dr.zeros(mi.BSDFSample3f)
-        bs.wo = self.sampling.sample(si.wi, sample1, sample2, active)
+        wi = self.sampling.sample(self._laid(si.wi), sample1, sample2, active)
+        bs.wo = self._laid(wi, back=True)
         bs.pdf = self.pdf(ctx, si, bs.wo, active)
         bs.eta = 1.0
         bs.sampled_type = mi.UInt32(+mi.BSDFFlags.GlossyReflection)
@@ -115,6 +123,7 @@ class TableBsdf(mi.BSDF):
 
     def traverse(self, cb: Any) -> None:
         cb.put("table", self.table, mi.ParamFlags.Differentiable)
+        cb.put("turn", self.turn, mi.ParamFlags.NonDifferentiable)
 
     def parameters_changed(self, keys: Sequence[str] = ()) -> None:
         if not keys or "table" in keys:
@@ -123,6 +132,14 @@ class TableBsdf(mi.BSDF):
                     f"the new table has {dr.width(self.table)} floats: a {self.grid} grid takes {4 * self.grid.size}."
                 )
             self.sampling.follow(self.values)
+
+    def _laid(self, v: Any, *, back: bool = False) -> Any:
+        """A direction in the frame of the table, of one in that of the surface; or ``back``."""
+        if self.grid.is_isotropic:
+            return v
+        sin, cos = dr.sincos(self.turn * (np.pi / 180))
+        sin = sin if back else -sin
+        return mi.Vector3f(cos * v.x - sin * v.y, sin * v.x + cos * v.y, v.z)
 
     def _spectrum(self, color: Any, si: Any) -> Any:
         """The colour as this variant carries it."""
@@ -227,7 +244,8 @@ def _primaries() -> np.ndarray:
 def _read(props: Any) -> TabularBrdf:
     if "values" in props:
         values = np.array(props["values"], np.float32)
-        return TabularBrdf(values, Grid.merl(*values.shape[1:]), name=props.id())
+        grid = Grid.merl if values.ndim == 4 else Grid.anisotropic
+        return TabularBrdf(values, grid(*values.shape[1:]), name=props.id())
     if "recipe" in props:
         return _mixed(props.get("library", DEFAULT_LIBRARY), props["recipe"])
     if "filename" in props:

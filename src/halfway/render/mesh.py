@@ -1,6 +1,7 @@
 """Triangle meshes as plain arrays."""
 
 from collections.abc import Sequence
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -14,22 +15,42 @@ class Mesh(NamedTuple):
     positions: np.ndarray  # (n_vertices, 3), float32
     normals: np.ndarray  # (n_vertices, 3), float32, unit, outward
     faces: np.ndarray  # (n_faces, 3), uint32
+    uv: np.ndarray | None = (
+        None  # (n_faces, 3, 2), float32: texture coordinates of each face's corners
+    )
+    """The tangent of the surface points to where the first of them grows; None where nothing says."""
 
     @classmethod
-    def of(cls, positions: np.ndarray, normals: np.ndarray, faces: np.ndarray) -> "Mesh":
+    def of(
+        cls,
+        positions: np.ndarray,
+        normals: np.ndarray,
+        faces: np.ndarray,
+        uv: np.ndarray | None = None,
+    ) -> "Mesh":
         """A mesh of arrays of any real and integer types."""
         return cls(
-            positions.astype(np.float32), normals.astype(np.float32), faces.astype(np.uint32)
+            positions.astype(np.float32),
+            normals.astype(np.float32),
+            faces.astype(np.uint32),
+            None if uv is None else uv.astype(np.float32),
         )
+
+    def unshared(self) -> "Mesh":
+        """The same with vertices of its own for each face, so that the nth has the nth texture coordinates."""
+        corners = self.faces.ravel()
+        faces = np.arange(len(corners)).reshape(-1, 3)
+        return Mesh.of(self.positions[corners], self.normals[corners], faces, self.uv)
 
 
 def joined(meshes: Sequence[Mesh]) -> Mesh:
-    """All the triangles of several meshes."""
+    """All the triangles of several meshes with texture coordinates."""
     starts = np.cumsum([0, *(len(mesh.positions) for mesh in meshes[:-1])])
     return Mesh.of(
         np.concatenate([mesh.positions for mesh in meshes]),
         np.concatenate([mesh.normals for mesh in meshes]),
         np.concatenate([mesh.faces + start for mesh, start in zip(meshes, starts, strict=True)]),
+        np.concatenate([mesh.uv for mesh in meshes if mesh.uv is not None]),
     )
 
 
@@ -44,8 +65,28 @@ def placed(mesh: Mesh, place: Placed) -> Mesh:
     c, s = np.cos(turn), np.sin(turn)
     rotation = np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]])
     return Mesh.of(
-        positions * scale @ rotation.T + np.array(place.at), mesh.normals @ rotation.T, mesh.faces
+        positions * scale @ rotation.T + np.array(place.at),
+        mesh.normals @ rotation.T,
+        mesh.faces,
+        mesh.uv,
     )
+
+
+def brushed(mesh: Mesh) -> Mesh:
+    """The mesh with texture coordinates of its own, or else with tangents that run level, as grooves do that a vertical lathe cuts.
+
+    They are those of each triangle, counter-clockwise seen from above; along x where it lies level.
+    """
+    if mesh.uv is not None:
+        return mesh
+    a, b, c = np.moveaxis(mesh.positions[mesh.faces].astype(float), 1, 0)
+    n = np.cross(b - a, c - a)
+    t = np.stack([-n[:, 1], n[:, 0], 0 * n[:, 0]], axis=-1)
+    is_level = np.linalg.norm(t, axis=-1) <= 1e-6 * np.linalg.norm(n, axis=-1)
+    t[is_level] = (1, 0, 0)
+    axes = np.stack([_unit(t), _unit(np.cross(n, t))], axis=1)
+    corners = np.stack([a, b, c], axis=1) - a[:, None]
+    return mesh._replace(uv=np.einsum("fcx,fux->fcu", corners, axes).astype(np.float32))
 
 
 def sweep(
@@ -73,7 +114,41 @@ def sweep(
     return Mesh.of(positions, normals, faces)
 
 
-def outward(positions: np.ndarray, normals: np.ndarray, faces: np.ndarray) -> Mesh:
+def disc(*, lean_degrees: float = 25.0, thickness: float = 0.06, n: int = 512) -> Mesh:
+    """A thin disc of diameter 1 that stands on its rim and leans back from -y; tangents run around its middle."""
+    profile = np.array([(0, 1), (0.5, 1), (0.5, 0), (0, 0)]) * (1, thickness)
+    turn = 2 * np.pi * np.arange(n + 1) / n
+    around = np.stack([np.cos(turn), np.sin(turn), 0 * turn], axis=-1)
+    meshes: list[Mesh] = []
+    for (r0, z0), (r1, z1) in pairwise(profile):
+        positions = np.stack([around * r + (0, 0, z) for r, z in ((r0, z0), (r1, z1))])
+        normal = around * (z0 - z1) + np.array([0, 0, r1 - r0])
+        meshes.append(sheet(positions, np.broadcast_to(_unit(normal), positions.shape)))
+    whole = joined(meshes)
+    tilt = np.radians(90 - lean_degrees)
+    c, s = np.cos(tilt), np.sin(tilt)
+    rotation = np.array([[1, 0, 0], [0, c, -s], [0, s, c]])
+    return whole._replace(
+        positions=whole.positions @ rotation.T, normals=whole.normals @ rotation.T
+    )
+
+
+def sheet(positions: np.ndarray, normals: np.ndarray) -> Mesh:
+    """Two triangles per quad of arrays of shape (along, around, 3), without empty ones; u grows around."""
+    n, m = positions.shape[:2]
+    index = np.arange(n * m).reshape(n, m)
+    a, b, c, d = index[:-1, :-1], index[1:, :-1], index[1:, 1:], index[:-1, 1:]
+    faces = np.concatenate([np.stack([a, b, c], -1), np.stack([a, c, d], -1)]).reshape(-1, 3)
+    flat = positions.reshape(-1, 3)
+    edges = flat[faces] - flat[np.roll(faces, 1, axis=1)]
+    faces = faces[(np.linalg.norm(edges, axis=-1) > 1e-9).all(axis=1)]
+    uv = np.stack([faces % m / (m - 1), faces // m / (n - 1)], axis=-1)
+    return Mesh.of(flat, normals.reshape(-1, 3), faces, uv)
+
+
+def outward(
+    positions: np.ndarray, normals: np.ndarray, faces: np.ndarray, uv: np.ndarray | None = None
+) -> Mesh:
     """A mesh of a file with y up, turned to z up; faces turned so that the volume inside is positive.
 
     Normals are turned to the side of their faces, whatever a file says. Where one is missing, of length 0, it is made from
@@ -86,12 +161,18 @@ def outward(positions: np.ndarray, normals: np.ndarray, faces: np.ndarray) -> Me
     across = np.cross(b - a, c - a)
     if np.einsum("ij,ij->", a - positions.mean(axis=0), across) < 0:
         faces, across = faces[:, ::-1], -across
+        uv = None if uv is None else uv[:, ::-1]
     made = _made(len(positions), faces, across)
     given = np.linalg.norm(normals, axis=1, keepdims=True) > 0
     other_side = np.einsum("ij,ij->i", normals, made)[:, None] < 0
     normals = np.where(given, np.where(other_side, -normals, normals), made)
     length = np.linalg.norm(normals, axis=1, keepdims=True)
-    return Mesh.of(positions, normals / np.where(length > 0, length, 1), faces)
+    return Mesh.of(positions, normals / np.where(length > 0, length, 1), faces, uv)
+
+
+def _unit(v: np.ndarray) -> np.ndarray:
+    length = np.linalg.norm(v, axis=-1, keepdims=True)
+    return v / np.where(length > 0, length, 1)
 
 
 def _made(n_vertices: int, faces: np.ndarray, across: np.ndarray) -> np.ndarray:

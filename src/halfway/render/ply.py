@@ -8,7 +8,7 @@ r"""PLY files of polygons, text or binary.
     property list uchar int vertex_indices     a count and as many indices
     end_header
 
-and then the elements, in the header's order. Elements and properties of other names (colours, texture coordinates) are passed over. A
+and then the elements, in the header's order. Elements and properties of other names, such as colours, are passed over. A
 text is read as the same bytes with a double for every number. Sizes are checked against the file before memory is taken: the renderer's
 own reader believes them, and a wrong one ends the process.
 
@@ -35,6 +35,8 @@ _ORDERS = {"binary_little_endian": "<", "binary_big_endian": ">"}
 _HEADER = re.compile(
     rb"ply[ \t]*(?:\r\n|\n|\r)(.*?)[\r\n]end_header[ \t]*(?:\r\n|\n|\r)", re.DOTALL
 )
+_TEXTURES = ("u", "v"), ("s", "t"), ("texture_u", "texture_v")
+"""What programs call texture coordinates."""
 _LONGEST_HEADER = 1 << 16
 LARGEST_INDEX = 1 << 32
 
@@ -87,9 +89,14 @@ def parse_ply(content: bytes) -> Polygons:
         else np.zeros((0, 3))
         for axes in (("x", "y", "z"), ("nx", "ny", "nz"))
     )
+    scalars = {name for name, column in vertex.items() if column.property.length is None}
+    uv = next((names for names in _TEXTURES if set(names) <= scalars), ())
+    textures = np.stack([_scalars(data, vertex[name]) for name in uv] or [np.zeros(0)] * 2, axis=-1)
     corners, sizes = _lists(data, faces)
-    of_normal = corners if len(normals) else np.full(len(corners), -1)
-    return Polygons(points, normals, corners, of_normal, sizes)
+    nothing = np.full(len(corners), -1)
+    of_normal = corners if len(normals) else nothing
+    of_texture = corners if len(textures) else nothing
+    return Polygons(points, normals, corners, of_normal, sizes, textures.astype(float), of_texture)
 
 
 def _header(content: bytes) -> tuple[list[_Element], bytes]:

@@ -1,7 +1,7 @@
 """What mesh files hold, polygons whose corners may have normals of their own, made into triangles.
 
 Programs keep quads and larger faces. Each polygon is cut into a fan from its first corner; one that bends inward, where the fan
-would fold over, is cut by ears. A point that corners show with different normals (at a hard edge) becomes several vertices.
+would fold over, is cut by ears. A point that corners show with different normals (at a hard edge) becomes several vertices. Texture coordinates count where all corners have them.
 """
 
 from typing import NamedTuple
@@ -28,6 +28,8 @@ class Polygons(NamedTuple):
     corners: np.ndarray  # (n_corners,), int64: the point of each corner, polygon after polygon
     corner_normals: np.ndarray  # (n_corners,), int64: the normal of each corner; -1 for none
     sizes: np.ndarray  # (n_polygons,), int64: how many corners each has
+    textures: np.ndarray  # (n_textures, 2), float64: texture coordinates
+    corner_textures: np.ndarray  # (n_corners,), int64: those of each corner; -1 for none
 
     def mesh(self) -> Mesh:
         """The triangles, z up, faces turned outward.
@@ -52,7 +54,16 @@ class Polygons(NamedTuple):
             )
         # Surveyors' coordinates lie so far out that single precision would leave steps.
         positions = positions - (low + high) / 2
-        return outward(positions, normals[normal], vertices[self._triangles()])
+        triangles = self._triangles()
+        return outward(positions, normals[normal], vertices[triangles], self._uv(triangles))
+
+    def _uv(self, triangles: np.ndarray) -> np.ndarray | None:
+        """Texture coordinates of the corners of triangles; None where one has none."""
+        which = self.corner_textures[triangles]
+        if ((which < 0) | (which >= len(self.textures))).any():
+            return None
+        uv = self.textures[which]
+        return uv if (np.abs(uv) < LARGEST).all() else None
 
     def _require_whole(self) -> None:
         _require_among(self.corners, len(self.points), "points", 0)

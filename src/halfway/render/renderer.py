@@ -28,7 +28,7 @@ from .exposure import Exposure, no_progress
 from .interrupts import interrupts_wait
 from .scenes import SCENES, Material, Scene
 from .studio import studio
-from .variant import Device, compiles, load_mitsuba, register
+from .variant import VARIANTS, Device, compiles, load_mitsuba, register
 
 STUDIO = "studio"
 """The built-in environment, in place of a file."""
@@ -39,6 +39,7 @@ BACKDROP_SPP = 64, 256
 """At least so many samples a pixel of the ground, with a denoiser and without."""
 LARGEST_SIZE = 8192
 LARGEST_SPP = 65536
+LARGEST_TURN = 360
 
 QUALITY = {"preview": 16, "normal": 64, "final": 256}
 """Samples per pixel by the name of a quality."""
@@ -63,6 +64,8 @@ class Renderer:
         In place of every object of the scene: ``.ply`` or ``.obj``, y up.
     bounces : int, optional
         Of light between surfaces, in place of the scene's own.
+    turn_degrees : float
+        By how much an anisotropic table is turned against the tangent of the surface, counter-clockwise seen from outside.
     show_env : bool
         The environment stands behind the objects, in place of the ground.
     denoise : bool
@@ -96,6 +99,7 @@ class Renderer:
         env: Path | str | None = None,
         mesh: Path | str | None = None,
         bounces: int | None = None,
+        turn_degrees: float = 0.0,
         show_env: bool = False,
         denoise: bool = False,
         device: Device = "auto",
@@ -115,9 +119,19 @@ class Renderer:
         _require("spp", spp, 1, LARGEST_SPP)
         _require("seed", seed, 0, 2**32 - 1)
         _require("bounces", self.bounces, 1, 1000)
+        if not abs(turn_degrees) <= LARGEST_TURN:
+            raise RenderError(
+                f"a turn of {turn_degrees:g} degrees is none: expected {-LARGEST_TURN} to {LARGEST_TURN}."
+            )
+        self.turn_degrees = turn_degrees
         self._variant = load_mitsuba(device).variant()
         if self.exact:
             register(device)
+        elif turn_degrees:
+            raise RenderError(
+                f"a material cannot be turned by {turn_degrees:g} degrees in the Mitsuba variant {self._variant}: "
+                f"expected one that compiles, such as {VARIANTS['cpu']}."
+            )
         if denoise:
             require_denoiser()
         self._denoise = denoise
@@ -129,7 +143,9 @@ class Renderer:
         with interrupts_wait():
             from .stage import Stage
 
-            self._stage = Stage(self.scene, size=size, env=env, mesh=mesh)
+            self._stage = Stage(
+                self.scene, size=size, env=env, mesh=mesh, turn_degrees=turn_degrees
+            )
 
     def turned(self, degrees: float) -> "Renderer":
         """The same with its objects on a turntable, counter-clockwise seen from above; light and camera stay."""
@@ -142,6 +158,7 @@ class Renderer:
             env=env,
             mesh=mesh,
             bounces=self.bounces,
+            turn_degrees=self.turn_degrees,
             show_env=self._show_env,
             denoise=self._denoise,
             device=self._device,
@@ -179,7 +196,9 @@ class Renderer:
 
     def fingerprint(self) -> str:
         """Letters that change when anything but the material changes the picture: 32 hexadecimal digits."""
-        return self._fingerprint(self.spp, self.seed, self.bounces, self._denoise)
+        return self._fingerprint(
+            self.spp, self.seed, self.bounces, self._denoise, self.turn_degrees
+        )
 
     @cached_property
     def backdrop(self) -> np.ndarray:
@@ -203,7 +222,7 @@ class Renderer:
         layer = self._stage.ground(exposure)
         return layer.over(_background((layer.window.width, layer.window.height)))
 
-    def _fingerprint(self, *sampling: int) -> str:
+    def _fingerprint(self, *sampling: float) -> str:
         """Of the scene, and of how it is sampled."""
         digest = sha256(
             f"4 {self.scene} {self.size} {self.exact} {self._show_env} {sampling}".encode()

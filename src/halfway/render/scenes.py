@@ -19,7 +19,7 @@ Material = TabularBrdf | Mapping[str, Any]
 class Placed:
     """An object: its shape, where it stands, and which of the materials it wears."""
 
-    shape: Literal["teapot", "sphere", "mesh"]
+    shape: Literal["teapot", "sphere", "disc", "mesh"]
     at: Vector = (0.0, 0.0, 0.0)
     """Where the middle of its foot stands."""
     height: float = 1.0
@@ -129,6 +129,16 @@ SCENES = {
             Camera((0.0, -14.0, 5.2), (0.0, 0.0, 0.9), 37.0, 1.7),
             ground=True,
             bounces=5,
+        ),
+        Scene(
+            "brushed",
+            "a disc and a teapot, both turned on a lathe, which anisotropic materials show",
+            (
+                Placed("disc", at=(-1.8, 1.1, 0.0), height=3.4, turn_degrees=24.0),
+                Placed("teapot", at=(1.35, -0.7, 0.0), height=2.35, turn_degrees=-28.0),
+            ),
+            Camera((0.1, -14.0, 4.6), (0.1, 0.0, 1.4), 31.0, 1.6),
+            ground=True,
         ),
     )
 }

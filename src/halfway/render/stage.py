@@ -3,6 +3,7 @@
 Imported only after `halfway.render.variant.load_mitsuba` has chosen a variant.
 """
 
+import warnings
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +17,7 @@ from .environment import read_environment
 from .exposure import Exposure, Layer
 from .ground import seen_through
 from .interrupts import interrupts_wait
-from .mesh import Mesh, placed, sweep
+from .mesh import Mesh, brushed, disc, placed, sweep
 from .scenes import Camera, Material, Placed, PointLight, Scene
 from .studio import as_bright_as_the_studio, studio
 from .teapot import tessellate
@@ -33,13 +34,20 @@ class Stage:
     """The objects, lights and camera of a scene; its parts are compiled when first used."""
 
     def __init__(
-        self, scene: Scene, *, size: tuple[int, int], env: Path | None, mesh: Path | None
+        self,
+        scene: Scene,
+        *,
+        size: tuple[int, int],
+        env: Path | None,
+        mesh: Path | None,
+        turn_degrees: float = 0.0,
     ) -> None:
         self._scene = scene
         self._size = size
         self._meshes = _meshes(scene, mesh)
+        self._mesh_file = mesh
         self._lights = _lights(scene, env)
-        self._wardrobe = Tables() if compiles(str(mi.variant())) else Files()
+        self._wardrobe = (Tables if compiles(str(mi.variant())) else Files)(turn_degrees)
         self._scenes: dict[bool, list[Any]] = {}
 
     def objects(self, materials: list[Material], exposure: Exposure) -> Layer:
@@ -86,6 +94,17 @@ class Stage:
     def _dress(self, materials: list[Material]) -> None:
         if self._wardrobe.change(materials):
             self._scenes = {}
+            self._say_where_tangents_point()
+
+    def _say_where_tangents_point(self) -> None:
+        """Where a mesh of the user's own does not say itself, and it matters."""
+        unsaid = any(mesh is not None and mesh.uv is None for mesh in self._meshes)
+        if unsaid and any(map(_is_anisotropic, self._wardrobe.bsdfs)):
+            warnings.warn(
+                f"{self._mesh_file} has no texture coordinates, which say where a material's tangent points: "
+                "it runs level, around the vertical. Unwrap the mesh to have another.",
+                stacklevel=2,
+            )
 
     def _dressed(self, *, ground: bool) -> list[Any]:
         if ground not in self._scenes:
@@ -140,8 +159,13 @@ def _meshes(scene: Scene, mesh: Path | None) -> list[Mesh | None]:
     if own is not None:
         return [placed(own, place) for place in scene.objects]
     return [
-        placed(tessellate(), place) if place.shape == "teapot" else None for place in scene.objects
+        placed(_MADE[place.shape](), place) if place.shape in _MADE else None
+        for place in scene.objects
     ]
+
+
+_MADE = {"teapot": tessellate, "disc": disc}
+"""Meshes by shape."""
 
 
 def _shape(place: Placed, mesh: Mesh | None, bsdf: Any) -> Any:
@@ -149,14 +173,22 @@ def _shape(place: Placed, mesh: Mesh | None, bsdf: Any) -> Any:
         return _mesh(place.shape, mesh, bsdf)
     x, y, z = place.at
     radius = place.height / 2
+    # Its tangent runs around the vertical.
     return {"type": "sphere", "center": [x, y, z + radius], "radius": radius, "bsdf": bsdf}
 
 
 def _mesh(kind: str, mesh: Mesh, bsdf: Any) -> Any:
     props = mi.Properties()
     props["mesh_bsdf"] = _both_sides(bsdf)
+    has_tangents = _is_anisotropic(bsdf)
+    mesh = brushed(mesh).unshared() if has_tangents else mesh
     shape = mi.Mesh(
-        kind, len(mesh.positions), len(mesh.faces), has_vertex_normals=True, props=props
+        kind,
+        len(mesh.positions),
+        len(mesh.faces),
+        has_vertex_normals=True,
+        has_vertex_texcoords=has_tangents,
+        props=props,
     )
     parameters = mi.traverse(shape)
     arrays = {
@@ -164,11 +196,17 @@ def _mesh(kind: str, mesh: Mesh, bsdf: Any) -> Any:
         "vertex_normals": mesh.normals,
         "faces": mesh.faces,
     }
+    if has_tangents:
+        arrays["vertex_texcoords"] = np.asarray(mesh.uv)
     for name, array in arrays.items():
         buffer: Any = type(parameters[name])
         parameters[name] = buffer(array.ravel())
     parameters.update()
     return shape
+
+
+def _is_anisotropic(bsdf: Any) -> bool:
+    return mi.has_flag(bsdf.flags(), mi.BSDFFlags.Anisotropic)
 
 
 def _both_sides(bsdf: Any) -> Any:

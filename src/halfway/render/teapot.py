@@ -18,7 +18,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from .mesh import Mesh, joined
+from .mesh import Mesh, joined, sheet
 
 Curve: TypeAlias = Callable[[np.ndarray, np.ndarray], np.ndarray]
 
@@ -68,10 +68,13 @@ TUBES = np.array(
 
 
 def tessellate(n: int = 24) -> Mesh:
-    """The teapot with ``n`` steps along each side of a patch; the normals are the surface's own."""
+    """The teapot with ``n`` steps along each side of a patch; the normals are the surface's own.
+
+    Tangents run around the axis of each part.
+    """
     t = np.linspace(0, 1, n + 1)
-    sheets = [_revolve(profile, t) for profile in PROFILES] + [_sweep(tube, t) for tube in TUBES]
-    return joined([_triangles(*sheet) for sheet in sheets])
+    parts = [_revolve(profile, t) for profile in PROFILES] + [_sweep(tube, t) for tube in TUBES]
+    return joined([sheet(*part) for part in parts])
 
 
 def _revolve(profile: np.ndarray, t: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -136,18 +139,6 @@ def tangent(control: np.ndarray, t: np.ndarray) -> np.ndarray:
     u = 1 - t
     weights = np.stack([u**2, 2 * u * t, t**2], axis=-1)
     return np.tensordot(3 * weights, np.diff(control, axis=0), axes=1)
-
-
-def _triangles(positions: np.ndarray, normals: np.ndarray) -> Mesh:
-    """Two triangles per quad of a sheet, without those that a pole makes empty."""
-    n, m = positions.shape[:2]
-    index = np.arange(n * m).reshape(n, m)
-    a, b, c, d = index[:-1, :-1], index[1:, :-1], index[1:, 1:], index[:-1, 1:]
-    faces = np.concatenate([np.stack([a, b, c], -1), np.stack([a, c, d], -1)]).reshape(-1, 3)
-    flat = positions.reshape(-1, 3)
-    edges = flat[faces] - flat[np.roll(faces, 1, axis=1)]
-    whole = (np.linalg.norm(edges, axis=-1) > 1e-9).all(axis=1)
-    return Mesh.of(flat, normals.reshape(-1, 3), faces[whole])
 
 
 def _stack(*parts: np.ndarray) -> np.ndarray:

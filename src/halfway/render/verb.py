@@ -30,7 +30,7 @@ def picture(
     path : path, optional
         Where to write it as well: ``.png``, ``.jpg``, ``.webp``, or ``.exr``, which takes no exposure.
     scene : str
-        ``teapot``, ``spheres``, ``sphere`` or ``trio``.
+        ``teapot``, ``spheres``, ``sphere``, ``trio`` or ``brushed``.
     size : int or (int, int)
         Width and height in pixels.
     quality : str

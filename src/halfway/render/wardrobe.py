@@ -21,8 +21,10 @@ from .scenes import Material
 class Wardrobe(ABC):
     """The BSDFs of a scene's materials."""
 
-    def __init__(self) -> None:
+    def __init__(self, turn_degrees: float = 0.0) -> None:
         self.bsdfs: list[Any] = []
+        self.turn_degrees = turn_degrees
+        """Of anisotropic tables against the tangent."""
 
     @abstractmethod
     def change(self, materials: list[Material]) -> bool:
@@ -32,8 +34,8 @@ class Wardrobe(ABC):
 class Tables(Wardrobe):
     """Exact tables. A new table of the same grid goes into the old BSDF: nothing is compiled again."""
 
-    def __init__(self) -> None:
-        super().__init__()
+    def __init__(self, turn_degrees: float = 0.0) -> None:
+        super().__init__(turn_degrees)
         self._grids: list[Grid] = []
         """Of the tables; empty while a plugin is among the materials."""
 
@@ -43,8 +45,10 @@ class Tables(Wardrobe):
         tables = [material for material in materials if isinstance(material, TabularBrdf)]
         grids = [table.grid for table in tables] if len(tables) == len(materials) else []
         if not grids or grids != self._grids:
+            props = mi.Properties()
+            props["turn"] = self.turn_degrees
             self.bsdfs = [
-                bsdf.TableBsdf(mi.Properties(), material)
+                bsdf.TableBsdf(props, material)
                 if isinstance(material, TabularBrdf)
                 else mi.load_dict(dict(material))
                 for material in materials

@@ -21,7 +21,7 @@ from ..components import Pca
 from ..errors import HalfwayError, RecipeError, SpaceError
 from ..halfdiff import Grid
 from ..library import Joined, Library
-from ..look import SMALL_GRID, Looks
+from ..look import Looks, small_grid
 from ..recipes import Blend, Mixer, Recipe
 from ..render import SCENES, studio
 from ..space import PACES, SPACES, Embedding, Route, Scores, Space, lengths, make_space
@@ -118,7 +118,7 @@ class Explorer:
             licence=library.origin.licence,
             checksum=library.checksum,
             grid=_axes(library.grid),
-            small_grid=_axes(SMALL_GRID),
+            small_grid=_axes(small_grid(library.grid)),
             materials=[Material(name=name) for name in library.names],
             spaces=[
                 SpaceSummary(name=name, text=kind.summary, usual_blend=kind.usual_blend)
@@ -172,8 +172,9 @@ class Explorer:
         recipe = self._recipe(document)
         if not small:
             return Block.of_table(self._mixer.mix(recipe))
-        values = self.pictures.tables.mix(self._weights(recipe), recipe.blend)
-        return Block.of_table(TabularBrdf(values.reshape(3, *SMALL_GRID.shape), SMALL_GRID))
+        tables = self.pictures.tables
+        values = tables.mix(self._weights(recipe), recipe.blend)
+        return Block.of_table(TabularBrdf(values.reshape(3, *tables.grid.shape), tables.grid))
 
     def thumbnails(self) -> Block:
         """Pictures of all materials on a lit sphere, (N, size, size, RGBA), linear, black beside the sphere."""
