@@ -1,11 +1,13 @@
 """Rendering on a graphics card: is it chosen, is it right, and what does it take.
 
 ``python benchmarks/gpu.py`` prints what `halfway doctor` finds, the largest difference of values that the BSDF looks up from
-those of the table, and milliseconds: of a picture as a table, as Mitsuba's own blend and as its ``measured``, and of a new table.
+those of the table, and milliseconds: of a picture as a table, as Mitsuba's own blend and as its ``measured``, and of a new table. An
+anisotropic table is made of Mitsuba's rough conductor, and its picture compared with that plugin's.
 Where there is no card it runs on the CPU, smaller (``--size 96``).
 """
 
 import argparse
+import sys
 import tempfile
 import time
 from collections.abc import Callable
@@ -20,6 +22,7 @@ from halfway.halfdiff import MERL
 from halfway.library import open_library
 from halfway.render import Renderer, doctor
 
+sys.path.append(str(Path(__file__).parents[1] / "tests"))
 N_PAIRS = 1 << 20
 ROUNDS = 7
 
@@ -57,6 +60,23 @@ def main() -> None:
     print(
         f"new table      {_milliseconds(lambda: renderer.picture(next(others))):.1f} ms, its picture included"
     )
+    _anisotropic(Renderer("sphere", size=(given.size, given.size), spp=given.spp), what)
+
+
+def _anisotropic(renderer: Renderer, what: str) -> None:
+    """How near and how fast a table of a brushed conductor is, beside the plugin that it is made of."""
+    from roughconductor import anisotropic, plugin
+
+    alphas = 0.05, 0.3
+    table = anisotropic(*alphas)
+    shown, expected = (np.clip(renderer.picture(each), 0, 1) for each in (table, plugin(*alphas)))
+    error = -10 * np.log10(np.mean((shown - expected) ** 2))
+    print(
+        f"anisotropic    {error:.1f} dB from Mitsuba's roughconductor, alpha {alphas[0]} x {alphas[1]}"
+    )
+    for name, material in {"anisotropic": table, "its plugin": plugin(*alphas)}.items():
+        taken = _milliseconds(lambda material=material: renderer.picture(material))
+        print(f"{name:14} {taken:.1f} ms a picture of a sphere, {what}")
 
 
 def _largest_difference(table: TabularBrdf, mi) -> float:
