@@ -13,6 +13,7 @@ from typer.testing import CliRunner
 from halfway.cli import app
 from halfway.errors import HalfwayError, LibraryError, OutputError
 from halfway.halfdiff import Grid
+from halfway.instruments import attributes
 from halfway.library import Library, ProceduralLibrary, Subset
 from halfway.look import Looks, most_different
 from halfway.server.blocks import Block
@@ -71,6 +72,13 @@ def test_a_table_is_the_one_that_the_server_sends(small_library: Library, export
     assert folder["tables"][3] == {"shape": list(block.shape), "scale": list(block.scale)}
     # Files cannot mix.
     assert folder["library"]["exports"] == []
+
+
+def test_the_attributes_are_those_of_the_materials(few: Library, exported: Path) -> None:
+    document = json.loads((exported / "data/attributes.json").read_text())
+    listed = {each["name"]: each["values"] for each in document["attributes"]}
+    own = attributes(few.brdf(few.names[2]))["albedo"]
+    assert_allclose(listed["albedo"][2], own, rtol=1e-6)
 
 
 def test_every_pair_has_its_way_in_every_space(few: Library, exported: Path) -> None:

@@ -1,9 +1,10 @@
 // What every panel is given.
 
+import type { Actions } from "./actions";
 import type { Client } from "./api/client";
 import type { Lights } from "./render/lights";
 import type { Tables } from "./render/tables";
-import type { Actions, Linked, State, Theme } from "./state";
+import type { Linked, State, Theme } from "./state";
 import type { Store } from "./store";
 import type { Thumbnails } from "./thumbnails";
 

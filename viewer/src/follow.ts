@@ -1,25 +1,20 @@
 // What runs beside the panels: the client is asked for what the state needs, the link follows it, and time goes on.
 
+import type { Block } from "./api/client";
+import type { RecipeDocument } from "./api/schema";
 import { LINEAR } from "./blend";
 import type { DrawableGrid } from "./brdf/grid";
+import { comparedSpace } from "./compared";
 import type { Context } from "./context";
-import { MixedTable } from "./mixed";
+import { followNumbers } from "./measuring";
 import { toHash } from "./permalink";
 import { type Ingredient, only, toDocument } from "./recipe";
+import { Refined } from "./refined";
 import { mixedName } from "./render/tables";
 import { join, type Route, reversed } from "./route";
 import { toText } from "./shortlist";
-import {
-  blendOf,
-  comparedSpace,
-  DRAWN,
-  LINKED,
-  type MixedKey,
-  otherBlendOf,
-  type Panel,
-  type State,
-  usualBlend,
-} from "./state";
+import { blendOf, DRAWN, otherBlendOf } from "./shown";
+import { LINKED, type MixedKey, type Panel, type State, usualBlend } from "./state";
 import { shortName } from "./title";
 import { comingUp, shownNames } from "./wanted";
 
@@ -31,6 +26,7 @@ export function follow(context: Context): void {
   fetchSpaces(context);
   fetchTables(context);
   fetchMixes(context);
+  followNumbers(context);
   keepLink(context);
   keepShortlist(context);
   play(context);
@@ -138,13 +134,13 @@ function fetchMixes(context: Context): void {
   });
 }
 
-function mixedTable(context: Context, key: MixedKey): MixedTable {
+function mixedTable(context: Context, key: MixedKey): Refined<RecipeDocument, Block> {
   const { client, store, actions, tables } = context;
   const { grid, small_grid: smallGrid } = store.get().library;
   let number = 0;
-  return new MixedTable({
-    table: client.mixed,
-    onTable: ({ halfs, scale }, small) => {
+  return new Refined({
+    ask: client.mixed,
+    onAnswer: ({ halfs, scale }, small) => {
       // The full table is the same mix as the small one before it.
       if (small) number++;
       const name = mixedName(`${key} ${number}`, small);

@@ -3,6 +3,7 @@
 // Several may stand in one document. Data come through the client alone, and what the page wants of its surroundings is an
 // option: it looks neither at the address nor at what the browser stores.
 
+import { Actions, LINK } from "./actions";
 import { type Block, type Client, Problem } from "./api/client";
 import { patient, type Waiting } from "./api/patient";
 import type { LibrarySummary } from "./api/schema";
@@ -24,7 +25,7 @@ import { fromHash, unknownIn } from "./permalink";
 import { Lights } from "./render/lights";
 import { Tables } from "./render/tables";
 import { fromText } from "./shortlist";
-import { Actions, createState, LINK, type State } from "./state";
+import { createState, type State } from "./state";
 import type { Store } from "./store";
 import { Thumbnails } from "./thumbnails";
 import "./styles/index.css";

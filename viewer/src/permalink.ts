@@ -1,12 +1,20 @@
 // What the page shows, in the part of the address after #: a link, or a reload, comes back to the same view.
 
 import type { LibrarySummary } from "./api/schema";
+import type { Asked } from "./asked";
+import { asCompared } from "./compared";
 import { clamp } from "./numbers";
 import { EXPOSURES, HOME, LIGHTS, type Orbit, TONES, TURNS, zoomed } from "./scene";
-import { asCompared, type Linked, PLOTS } from "./state";
+import { ASIDES, type Linked, PLOTS } from "./state";
 
 /** What stands as it is at first is left out. */
-const USUAL: Partial<Record<keyof Linked, string>> = { turn: "0", tone: "none", split: "0.5", plot: "lobes" };
+const USUAL: Partial<Record<keyof Linked, string>> = {
+  turn: "0",
+  tone: "none",
+  split: "0.5",
+  plot: "lobes",
+  aside: "weights",
+};
 
 export function toHash(linked: Linked): string {
   const { azimuth, elevation, zoom } = linked.orbit;
@@ -28,6 +36,11 @@ export function toHash(linked: Linked): string {
     split: short(linked.split, 3),
     map: linked.map,
     plot: linked.plot,
+    aside: linked.aside,
+    // What was found like one of the shortlist stays with the person who has it.
+    asked: Object.entries(linked.asked?.like === null ? linked.asked.set : {})
+      .map(([name, value]) => `${name}:${Number(value.toPrecision(5))}`)
+      .join(","),
     orbit: [azimuth, elevation, zoom].map((x) => short(x, 3)).join(","),
   };
   return `#${Object.entries(fields)
@@ -66,6 +79,8 @@ export function fromHash(hash: string, library: LibrarySummary): Partial<Linked>
     split: number("split", 0, 1),
     map: fields.get("map") || undefined,
     plot: oneOf("plot", PLOTS),
+    aside: oneOf("aside", ASIDES),
+    asked: toAsked(list("asked")),
     exposure: number("exposure", ...EXPOSURES),
     orbit: toOrbit(list("orbit").map(Number.parseFloat)),
   };
@@ -83,6 +98,14 @@ export function unknownIn(hash: string, library: LibrarySummary): string | null 
   });
   if (unknown.length === 0) return null;
   return `The link asks for ${unknown.join(", ")}, which the explorer of ${library.name} does not have: it is shown without.`;
+}
+
+function toAsked(parts: readonly string[]): Asked | undefined {
+  const pairs = parts
+    .map((part) => part.split(":"))
+    .map(([name = "", value]) => [name, Number.parseFloat(value ?? "")] as const);
+  if (pairs.length === 0 || !pairs.every(([, value]) => Number.isFinite(value))) return undefined;
+  return { like: null, set: Object.fromEntries(pairs) };
 }
 
 function toOrbit(numbers: readonly number[]): Orbit | undefined {

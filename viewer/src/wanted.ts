@@ -4,7 +4,8 @@ import { LINEAR } from "./blend";
 import { CHANNELS, namesIn } from "./recipe";
 import { mixedName } from "./render/tables";
 import type { Route } from "./route";
-import { drawnOf, otherDrawnOf, type State } from "./state";
+import { drawnOf, otherDrawnOf } from "./shown";
+import type { State } from "./state";
 
 /** What is shown; before the route has come, the stops beside t: a good guess. */
 export function shownNames(state: State): string[] {

@@ -1,12 +1,13 @@
 import { expect, test, vi } from "vitest";
-
+import { Actions } from "../src/actions";
 import type { LegView, LibrarySummary } from "../src/api/schema";
 import { toByte, toSrgb } from "../src/colour";
 import { fromHash, toHash } from "../src/permalink";
 import { only } from "../src/recipe";
 import { join, recipeAt } from "../src/route";
 import { keptOf } from "../src/shortlist";
-import { Actions, createState, drawnOf } from "../src/state";
+import { drawnOf } from "../src/shown";
+import { createState } from "../src/state";
 import { createStore } from "../src/store";
 import { golden } from "./golden";
 
@@ -67,6 +68,8 @@ test("a link comes back to the same view", () => {
     split: 0.25,
     map: "Scores",
     plot: "albedo",
+    aside: "numbers",
+    asked: { like: null, set: { gloss60: 12.5, b: -3 } },
   } as const;
   expect(fromHash(toHash(linked), LIBRARY)).toEqual(linked);
 });

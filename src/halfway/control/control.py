@@ -3,6 +3,7 @@
 The weights are one row for all channels, so that what is linear in the table is linear in them.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -20,14 +21,14 @@ from ..instruments import (
     Readings,
     attribute,
     of_readings,
-    of_table,
+    read_table,
     table_of,
 )
 from ..library import Library, LibraryRef, open_library
 from ..look import Looks
-from ..recipes import Blend, Recipe, mix, split_address
+from ..recipes import Blend, Mixer, Recipe, split_address
 from ..tasks import HERE, Work
-from .nearness import Nearness, numbers_of
+from .nearness import Nearness, numbers, numbers_of
 from .newton import Linearised
 from .pictures import PICTURES, picture_numbers
 from .programme import Goals, Weights, solve
@@ -63,14 +64,17 @@ class Control:
     readings: Readings
     looks: Looks
     nearness: Nearness
+    mixer: Mixer
 
     @classmethod
-    def of(cls, library: Library | str, *, work: Work = HERE) -> "Control":
-        """What is known of ``library``: read off its tables once, and kept in the cache."""
+    def of(
+        cls, library: Library | str, *, mixer: Mixer | None = None, work: Work = HERE
+    ) -> "Control":
+        """What is known of ``library``: read off its tables once, and kept in the cache; its ``mixer``, where there is one."""
         opened = open_library(library) if isinstance(library, str) else library
         readings = Readings.fit(opened, work=work)
         looks = Looks.fit(opened, work=work)
-        return cls(opened, readings, looks, Nearness.of(looks, readings))
+        return cls(opened, readings, looks, Nearness.of(looks, readings), mixer or Mixer(opened))
 
     def find(
         self,
@@ -80,24 +84,53 @@ class Control:
         blend: Blend = Blend.LINEAR,
         few: bool = False,
         clamp: bool = False,
+        draft: bool = False,
     ) -> Recipe:
-        """The recipe that has what is wished for and is nearest to ``like``; see the function `find`."""
+        """The recipe that has what is wished for and is nearest to ``like``; see the function `find`.
+
+        In another blend than the linear one a ``draft`` has what is wished for roughly, and is found sooner.
+        """
         differences = self.nearness.scaled(self._reference(like, wishes), held=wishes.held())
         near = partial(_nearest, wishes, differences, few=few)
         # Another blend may have what no linear mix has: it begins at the nearest of those.
         weights = near(self.readings.values, clamp=clamp or blend is not Blend.LINEAR)
         if weights is None:
             raise OutOfReachError(self.out_of_reach(wishes))
-        if blend is Blend.LINEAR:
-            return self._recipe(weights)
-        mixes = Linearised(self.library, self.looks, blend)
-        weights, missed = mixes.approach(wishes, weights, partial(near, clamp=True))
-        if missed > 1 and not clamp:
+        if blend is not Blend.LINEAR:
+            weights = self._blended(wishes, like, blend, weights, near, clamp=clamp, draft=draft)
+        return self._recipe(weights, blend)
+
+    def _blended(
+        self,
+        wishes: Wishes,
+        like: Like,
+        blend: Blend,
+        weights: Weights,
+        near: Callable[..., Weights | None],
+        *,
+        clamp: bool,
+        draft: bool,
+    ) -> Weights:
+        """What a blend needs to have what is wished for, from the weights of the linear mix."""
+        recipe = partial(self._recipe, blend=blend)
+        mixes = Linearised(recipe, self.mixer, self.looks, blend)
+        known = (
+            self._dense(like).any(axis=0) if isinstance(like, Recipe) else np.zeros(len(weights))
+        )
+        few = np.flatnonzero(known + weights)
+        # Nearly always those do that the linear mix has; a step among all takes ten times as long.
+        for among in (few, np.arange(len(weights))):
+            found, missed = mixes.approach(
+                wishes, weights, partial(near, clamp=True), among, draft=draft
+            )
+            if missed <= 1 or draft:
+                return found
+        if not clamp:
             raise OutOfReachError(
                 f"no mix by the blend {str(blend)!r} near to the linear one has {wishes}: the nearest that was found is "
                 f"{missed:.3g} times too far off. Ask for less, take --blend linear, or this one with --clamp."
             )
-        return mixes.recipe(weights)
+        return found
 
     def reach(self, name: str, wishes: Wishes) -> Range | None:
         """From the least to the most of an attribute where ``wishes`` hold; None where no mix has those."""
@@ -111,11 +144,7 @@ class Control:
 
     def attributes(self, recipe: Recipe) -> dict[str, Any]:
         """The attributes of a recipe of the library, by name; of a linear one without its table."""
-        if recipe.blend is not Blend.LINEAR:
-            return of_table(mix(self.library, recipe))
-        weights = np.zeros((3, len(self.library)))
-        weights[:, [self.library.index(name) for name in recipe.names]] = recipe.weights
-        return of_readings(self.readings.mix(weights, recipe.blend))
+        return of_readings(self._reading(recipe))
 
     def given_up(self, recipe: Recipe, wishes: Wishes, like: str) -> dict[str, tuple[Any, Any]]:
         """What a recipe should have kept of what it is like, and did not: the values there and here, by the attribute."""
@@ -157,8 +186,11 @@ class Control:
         """The numbers of what a recipe shall be like; without it, of the material that is nearest to the wishes."""
         if like is None:
             return self.nearness.points[wishes.nearest(self.readings.values)]
+        if isinstance(like, Recipe):
+            picture = self.looks.mix(self._dense(like), like.blend)
+            return numbers(picture[None], self._reading(like)[None])[0]
         if not isinstance(like, str):
-            return numbers_of(table_of(like, library=self.library.address))
+            return numbers_of(table_of(like))
         if like in self.library.names:
             return self.nearness.points[self.library.index(like)]
         if (colour := from_hex(like)) is not None:
@@ -214,9 +246,20 @@ class Control:
             f"{told}: the nearest is {wanted.written(weights @ wanted.of(self.readings.values))}."
         )
 
-    def _recipe(self, weights: Weights) -> Recipe:
+    def _reading(self, recipe: Recipe) -> Float64[np.ndarray, "n_instruments 3"]:
+        if recipe.blend is Blend.LINEAR:
+            return self.readings.mix(self._dense(recipe), recipe.blend)
+        return read_table(self.mixer.mix(recipe))
+
+    def _dense(self, recipe: Recipe) -> Float64[np.ndarray, "3 N"]:
+        """The weights of a recipe over all materials."""
+        weights = np.zeros((3, len(self.library)))
+        weights[:, [self.library.index(name) for name in recipe.names]] = recipe.weights
+        return weights
+
+    def _recipe(self, weights: Weights, blend: Blend) -> Recipe:
         dense = np.broadcast_to(weights, (3, len(weights)))
-        return Recipe.from_dense(LibraryRef.of(self.library), self.library.names, dense)
+        return Recipe.from_dense(LibraryRef.of(self.library), self.library.names, dense, blend)
 
 
 def _nearest(

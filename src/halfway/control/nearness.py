@@ -42,7 +42,7 @@ class Nearness:
     @classmethod
     def of(cls, looks: Looks, readings: Readings) -> "Nearness":
         """The numbers of a library, by its pictures and readings."""
-        points = _numbers(looks.images, readings.values)
+        points = numbers(looks.images, readings.values)
         n_picture = points.shape[1] - len(REFLECTIONS) - 3
         groups = np.repeat(GROUPS, [n_picture, len(REFLECTIONS), 3])
         return cls(points, tuple(groups.tolist()))
@@ -77,10 +77,11 @@ class Nearness:
 def numbers_of(table: TabularBrdf) -> Float64[np.ndarray, " d"]:
     """The numbers of a table."""
     picture = SphereOperator.of(PACING_SCENE, table.grid).picture(table.values.reshape(3, -1))
-    return _numbers(picture[None], read_table(table)[None])[0]
+    return numbers(picture[None], read_table(table)[None])[0]
 
 
-def _numbers(pictures: np.ndarray, readings: np.ndarray) -> Float64[np.ndarray, "N d"]:
+def numbers(pictures: np.ndarray, readings: np.ndarray) -> Float64[np.ndarray, "N d"]:
+    """The numbers of materials, by their pictures in the scene that routes are paced in, and their readings."""
     reflections = [ATTRIBUTES[name].of(readings) / 100 for name in REFLECTIONS]
     means = part_means(pictures, PACING_SCENE.mask())
     return np.concatenate(

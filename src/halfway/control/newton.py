@@ -5,22 +5,24 @@ About weights w a blend's readings r change with other weights v as
     r(v) ~ r(w) + sum_i v_i D_i        D_i = d/de r((1 - e) w + e e_i),   sum_i w_i D_i = 0
 
 so ``r(w) + D_i`` is to the mix what the readings of material i are to a linear one, and a programme over those is a step of
-Newton's method. r(w) is read off the mixed table, D_i off small tables by finite differences.
+Newton's method. D_i is read off small tables by finite differences; so is r(w), and what it differs there from the full table is
+read off that when no step is left, and added from then on.
 """
 
 from collections.abc import Callable
 
 import numpy as np
-from jaxtyping import Float64
+from jaxtyping import Float64, Int
 
 from ..brdf import TabularBrdf
 from ..instruments import read_table
-from ..library import Library, LibraryRef
 from ..look import Looks
 from ..recipes import Blend, Mixer, Recipe
 from .programme import Goals, Weights, solve
 from .wishes import Wishes
 
+N_ROUNDS = 6
+"""Of steps by small tables, each ended by a look at the full one."""
 N_STEPS = 20
 ENOUGH = 0.5
 """A step more is not worth its time."""
@@ -32,37 +34,61 @@ SMALL = 1e-3
 """Share of each material that is added to see what it changes."""
 
 
+Among = Int[np.ndarray, " n"]
+"""The materials that may be taken, in the library's order."""
 Near = Callable[[Float64[np.ndarray, "N n_instruments 3"]], Weights | None]
 
 
 class Linearised:
     """The readings of a blend's mixes about some weights."""
 
-    def __init__(self, library: Library, looks: Looks, blend: Blend) -> None:
-        self._mixer = Mixer(library)
-        self._library = LibraryRef.of(library)
+    def __init__(
+        self, recipe: Callable[[Weights], Recipe], mixer: Mixer, looks: Looks, blend: Blend
+    ) -> None:
+        self._recipe = recipe
+        self._mixer = mixer
         self._tables = looks.tables
-        self._names = looks.names
         self._blend = blend
 
-    def approach(self, wishes: Wishes, weights: Weights, near: Near) -> tuple[Weights, float]:
+    def approach(
+        self, wishes: Wishes, weights: Weights, near: Near, among: Among, *, draft: bool = False
+    ) -> tuple[Weights, float]:
         """Weights that have what is wished for, and how far off they are in `Wishes.missed`; from those of the linear mix.
 
         ``near`` gives the nearest weights by the readings of the materials. Steps go there as long as that helps, and then to
-        what is nearest to where they stand.
+        what is nearest to where they stand; of the materials ``among`` which they go, and of those that there are. A
+        ``draft`` is by small tables alone.
         """
-        readings = self.readings(weights)
+        best, least = weights, np.inf
+        offset = np.zeros(())
+        for _ in range(1 if draft else N_ROUNDS):
+            weights = self._steps(wishes, weights, near, among, offset)
+            readings = self._small(weights) if draft else self.readings(weights)
+            missed = wishes.missed(readings)
+            if missed >= least:
+                break
+            best, least = weights, missed
+            if missed <= ENOUGH:
+                break
+            offset = readings - self._small(weights)
+        return best, least
+
+    def _steps(
+        self, wishes: Wishes, weights: Weights, near: Near, among: Among, offset: np.ndarray
+    ) -> Weights:
+        """As far as steps go by small tables, whose readings are off by so much."""
+        readings = self._small(weights) + offset
         missed, free = wishes.missed(readings), True
         for _ in range(N_STEPS):
             if missed <= ENOUGH:
                 break
-            about = self._about(weights, readings)
+            about = self._about(weights, readings, among)
             ahead = near(about) if free else _least_change(wishes, about, weights)
             if ahead is None:
                 break
             for share in SHARES:
                 there = (1 - share) * weights + share * ahead
-                readings_there = self.readings(there)
+                readings_there = self._small(there) + offset
                 if (missed_there := wishes.missed(readings_there)) < missed:
                     weights, readings, missed = there, readings_there, missed_there
                     break
@@ -70,24 +96,23 @@ class Linearised:
                 if not free:
                     break
                 free = False
-        return weights, missed
-
-    def recipe(self, weights: Weights) -> Recipe:
-        """The recipe of weights that are the same for all channels."""
-        dense = np.broadcast_to(weights, (3, len(weights)))
-        return Recipe.from_dense(self._library, self._names, dense, self._blend)
+        return weights
 
     def readings(self, weights: Weights) -> Float64[np.ndarray, "n_instruments 3"]:
         """Read off the mixed table."""
-        return read_table(self._mixer.mix(self.recipe(weights)))
+        return read_table(self._mixer.mix(self._recipe(weights)))
 
     def _about(
-        self, weights: Weights, readings: Float64[np.ndarray, "n_instruments 3"]
+        self, weights: Weights, readings: Float64[np.ndarray, "n_instruments 3"], among: Among
     ) -> Float64[np.ndarray, "N n_instruments 3"]:
-        """What the readings of each material are to the mix about these weights."""
+        """What the readings of each material are to the mix about these weights; NaN of one that takes no part."""
         own = self._small(weights)
-        moved = (1 - SMALL) * weights + SMALL * np.eye(len(weights))
-        return np.stack([readings + (self._small(each) - own) / SMALL for each in moved])
+        about = np.full((len(weights), *own.shape), np.nan)
+        for i in np.union1d(among, np.flatnonzero(weights)).tolist():
+            moved = (1 - SMALL) * weights
+            moved[i] += SMALL
+            about[i] = readings + (self._small(moved) - own) / SMALL
+        return about
 
     def _small(self, weights: Weights) -> Float64[np.ndarray, "n_instruments 3"]:
         dense = np.broadcast_to(weights, (3, 1, len(weights)))

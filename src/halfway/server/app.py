@@ -5,6 +5,8 @@
     GET  /api/spaces/{space}                     a space as points to look at
     GET  /api/legs/{space}/{start}/{stop}        the way from one material to another: weights at knots
     POST /api/position                           the recipe at a point of a space
+    GET  /api/attributes                         the attributes of all materials
+    POST /api/find                               the recipe that is like another and has some attributes
     GET  /api/tables/{material}                  a table as half floats (`blocks`)
     POST /api/mix                                the table of a recipe, as half floats; ?small=true: a small one
     GET  /api/thumbnails                         small pictures of all materials, as half floats
@@ -40,6 +42,8 @@ from .making import NotYetError
 from .page import Asset, Page
 from .schema import (
     Added,
+    AttributesView,
+    FoundView,
     LegView,
     LibrarySummary,
     NotYet,
@@ -48,6 +52,7 @@ from .schema import (
     Problem,
     RecipeDocument,
     SpaceView,
+    Wanted,
 )
 from .taking import SUFFIXES
 
@@ -125,6 +130,14 @@ def _add_queries(app: FastAPI, explorer: Explorer) -> None:
     @app.post("/api/position")
     def position(point: Point) -> PositionView:
         return explorer.position(point)
+
+    @app.get("/api/attributes")
+    def attributes() -> AttributesView:
+        return explorer.attributes()
+
+    @app.post("/api/find")
+    def find(wanted: Wanted) -> FoundView:
+        return explorer.find(wanted)
 
     @app.post("/api/export/{format}", response_class=Response, responses=BYTES)
     def export(format: Name, recipe: RecipeDocument) -> StreamingResponse:

@@ -18,6 +18,7 @@ from jaxtyping import Float64
 
 from ..brdf import TabularBrdf
 from ..components import Pca
+from ..control import Control
 from ..errors import HalfwayError, RecipeError, SpaceError
 from ..halfdiff import Grid
 from ..library import Joined, Library
@@ -28,10 +29,13 @@ from ..space import PACES, SPACES, Embedding, Route, Scores, Space, lengths, mak
 from ..space import route as route_through
 from ..tasks import HERE, Work
 from .blocks import Block
+from .finding import attributes_view, found_view
 from .making import Once, Progress
 from .schema import (
+    AttributesView,
     Axis,
     EmbeddingView,
+    FoundView,
     LegView,
     LibrarySummary,
     Material,
@@ -42,6 +46,7 @@ from .schema import (
     RecipeDocument,
     SpaceSummary,
     SpaceView,
+    Wanted,
     WeightTable,
 )
 from .taking import SUFFIXES, Taken, read, written
@@ -92,6 +97,8 @@ class Explorer:
         self._block = lru_cache(N_TABLES)(partial(_block_of, library))
         self._leg = lru_cache(N_LEGS)(self._leg_of)
         self._mixer = Mixer(library, n_rows=12)
+        control = partial(Control.of, library, mixer=self._mixer, work=self._work)
+        self._control = Once(control, progress)
 
     def warm(self) -> None:
         """Compute what the first route needs: compiled metrics and solvers take a second to load."""
@@ -162,6 +169,14 @@ class Explorer:
         found = self.space(asked.space, asked.blend).at(asked.point, clamp=True)
         recipe = RecipeDocument.model_validate(found.recipe.to_json())
         return PositionView(recipe=recipe, point=found.point.tolist(), inside=found.inside)
+
+    def attributes(self) -> AttributesView:
+        """What instruments read off all materials."""
+        return attributes_view(self._control.get(self._patience))
+
+    def find(self, wanted: Wanted) -> FoundView:
+        """The recipe that has what is wanted, or misses least of it."""
+        return found_view(self._control.get(self._patience), self._recipe(wanted.like), wanted)
 
     def table(self, name: str) -> Block:
         """The table of one material."""

@@ -189,6 +189,48 @@ class PositionView(Model):
     """Whether the point asked for is a mix."""
 
 
+class AttributeView(Model):
+    """An attribute, and its values over the library; see `halfway.instruments`."""
+
+    name: str
+    label: str
+    unit: str
+    close: float
+    """How near to a number that is asked for is near enough."""
+    needs: str
+    """Another attribute that has to be asked for beside it; none if empty."""
+    values: list[float | None]
+    """In the library's order; null for a material that has none."""
+
+
+class AttributesView(Model):
+    """The attributes that are one number."""
+
+    attributes: list[AttributeView]
+
+
+class Wanted(Model):
+    """A recipe that is like another one, and has these attributes."""
+
+    like: RecipeDocument
+    """Its blend is that of both."""
+    set: Annotated[dict[str, float], Field(max_length=24)]
+    ranges: Annotated[list[str], Field(max_length=24)] = []
+    """Attributes of which the ends are wanted, too."""
+    draft: bool = False
+    """Whether a recipe will do that has them roughly, where its blend is not linear: it is found sooner."""
+
+
+class FoundView(Model):
+    """The recipe that misses least of what is wanted."""
+
+    recipe: RecipeDocument
+    attributes: dict[str, float | None]
+    """That it has."""
+    ranges: dict[str, tuple[float, float]]
+    """How far each goes with the others held, of linear mixes; without those that no mix has beside them."""
+
+
 class Added(Model):
     """A measurement that is a material of the library now."""
 

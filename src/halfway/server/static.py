@@ -6,6 +6,7 @@
         data/spaces/NAME.json       a space to look at                                  schema.SpaceView
         data/charts/NAME.json       its simplices, where it has points to go to         schema.ChartsFile
         data/legs/NAME/I-J.json     the way from material I to material J, I < J        schema.LegView
+        data/attributes.json        the attributes of all materials                     schema.AttributesView
         data/tables/I.bin           a table as half floats (`blocks`), gzip; so are
         data/thumbnails.bin, data/environment.bin
 
@@ -78,6 +79,7 @@ def export(
         files = _Files(scratch)
         _write_page(files, page)
         _write_blocks(files, explorer, work)
+        files.json("data/attributes.json", explorer.attributes())
         for name in SPACES:
             _write_space(files, explorer, name, work)
         return Exported(files.n_files, files.n_bytes)

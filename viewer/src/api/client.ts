@@ -1,12 +1,15 @@
 // What the page asks for, whoever answers: a server (`http`), a folder of files (`files`), or a notebook's kernel (`kernel`).
 
 import type {
+  AttributesView,
+  FoundView,
   LegView,
   LibrarySummary,
   PositionView,
   ProgressView,
   RecipeDocument,
   SpaceView,
+  Wanted,
 } from "./schema";
 
 /** A failure that a person can act on, in one line that says how. */
@@ -56,6 +59,10 @@ export interface Client {
     point: readonly number[],
     signal: AbortSignal,
   ) => Promise<PositionView>;
+  /** What instruments read off all materials. */
+  readonly attributes: () => Promise<AttributesView>;
+  /** The recipe that is like another and has some attributes; who cannot has no such function. */
+  readonly find?: (wanted: Wanted, signal: AbortSignal) => Promise<FoundView>;
   readonly thumbnails: () => Promise<Block>;
   readonly environment: () => Promise<Block>;
   /** One material's table; `onProgress` is told the share that has come, in [0, 1]. */

@@ -31,6 +31,7 @@ export function files(base: string): Client {
       const { charts } = await json<{ charts: ChartView[] }>(`charts/${space}.json`);
       return position(await spaceView(space), charts, (await folder()).library.name, await names(), point);
     },
+    attributes: () => json("attributes.json"),
     thumbnails: async () => block(`${base}thumbnails.bin`, (await folder()).thumbnails),
     environment: async () => block(`${base}environment.bin`, (await folder()).environment),
     table: async (name, onProgress) => {

@@ -47,6 +47,8 @@ export function patient(
     spaceView: again(client.spaceView),
     leg: again(client.leg),
     at: again(client.at),
+    attributes: again(client.attributes),
+    ...(client.find && { find: again(client.find) }),
     thumbnails: again(client.thumbnails),
     environment: again(client.environment),
     mixed: again(client.mixed),

@@ -37,6 +37,8 @@ export function clientOver(ask: Ask): Client {
     },
     at: async (space, blend, point, signal) =>
       json(await post("api/position", { space, blend, point }, signal)),
+    attributes: async () => json(await get("api/attributes")),
+    find: async (wanted, signal) => json(await post("api/find", wanted, signal)),
     mixed: async (recipe, small, signal) => block(await post(`api/mix?small=${small}`, recipe, signal)),
     thumbnailsOf: async (recipes) => block(await post("api/thumbnails", recipes)),
     thumbnails: async () => block(await get("api/thumbnails")),

@@ -131,6 +131,36 @@ export interface PositionView {
   readonly inside: boolean;
 }
 
+/** An attribute, and its values over the library; see `halfway.instruments`. */
+export interface AttributeView {
+  readonly name: string;
+  readonly label: string;
+  readonly unit: string;
+  readonly close: number;
+  readonly needs: string;
+  readonly values: readonly (number | null)[];
+}
+
+/** The attributes that are one number. */
+export interface AttributesView {
+  readonly attributes: readonly AttributeView[];
+}
+
+/** A recipe that is like another one, and has these attributes. */
+export interface Wanted {
+  readonly like: RecipeDocument;
+  readonly set: Readonly<Record<string, number>>;
+  readonly ranges: readonly string[];
+  readonly draft: boolean;
+}
+
+/** The recipe that misses least of what is wanted. */
+export interface FoundView {
+  readonly recipe: RecipeDocument;
+  readonly attributes: Readonly<Record<string, number | null>>;
+  readonly ranges: Readonly<Record<string, readonly [number, number]>>;
+}
+
 /** A measurement that is a material of the library now. */
 export interface Added {
   readonly name: string;

@@ -6,7 +6,8 @@ import { paced } from "../../paced";
 import type { Environment } from "../../render/environment";
 import { Painter } from "../../render/painter";
 import { type Needed, Quality, STILL } from "../../render/quality";
-import { DRAWN, drawnOf, otherDrawnOf, type State } from "../../state";
+import { DRAWN, drawnOf, otherDrawnOf } from "../../shown";
+import type { State } from "../../state";
 import { comingUp, shownNames } from "../../wanted";
 import { sayWhenLost } from "../notices";
 

@@ -5,7 +5,7 @@ import { download, dropdown, el, iconButton, popover, style } from "../../dom";
 import { clamp } from "../../numbers";
 import { NoCardError } from "../../render/card";
 import { photograph } from "../../render/photograph";
-import { blendOf, drawnOf, otherDrawnOf } from "../../state";
+import { blendOf, drawnOf, otherDrawnOf } from "../../shown";
 import { materialName } from "../../title";
 
 const SIZES = [16, 4096] as const;

@@ -1,9 +1,9 @@
 // The line between two materials in one picture: the present one to the left, the compared one to the right.
 
+import { comparedKept, comparedStop } from "../../compared";
 import type { Context } from "../../context";
 import { el } from "../../dom";
 import { clamp } from "../../numbers";
-import { comparedKept, comparedStop } from "../../state";
 
 const STEP = 0.02;
 /** The line stays that far from the edges. */

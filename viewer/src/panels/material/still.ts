@@ -2,7 +2,7 @@
 
 import type { Context } from "../../context";
 import { el } from "../../dom";
-import { blendOf } from "../../state";
+import { blendOf } from "../../shown";
 
 export function stillPictures(
   { store, thumbnails }: Context,

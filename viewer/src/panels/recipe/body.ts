@@ -5,7 +5,7 @@ import { fromHex, toHex } from "../../colour";
 import type { Context } from "../../context";
 import { coordinatesIn, pointOf, withCoordinates } from "../../coordinates";
 import { el } from "../../dom";
-import { isAway } from "../../state";
+import { isAway } from "../../shown";
 
 const BODY = "Body colour";
 

@@ -3,7 +3,7 @@
 import type { Context } from "../../context";
 import { download, el } from "../../dom";
 import { toDocument } from "../../recipe";
-import { blendOf } from "../../state";
+import { blendOf } from "../../shown";
 import { materialName } from "../../title";
 
 interface Format {

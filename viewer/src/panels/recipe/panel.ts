@@ -1,11 +1,13 @@
 // The recipe: what the material is made of, and taking it home.
 
 import type { Context } from "../../context";
-import { el } from "../../dom";
+import { el, segments } from "../../dom";
 import { CHANNELS, type Ingredient, meanWeight } from "../../recipe";
+import { ASIDES } from "../../state";
 import { notices } from "../notices";
 import { bodyColour } from "./body";
 import { exports } from "./exports";
+import { numberSliders } from "./numbers";
 
 export function recipePanel(context: Context): HTMLElement {
   const list = el("ol", { tabindex: 0, "aria-label": "Materials" });
@@ -24,15 +26,34 @@ export function recipePanel(context: Context): HTMLElement {
     const many = recipe.length ? `${recipe.length} materials` : "";
     note.textContent = recipe.length === 1 ? "one measured material" : many;
   });
+  const [numbers, aside] = [numberSliders(context), asideChoice(context)];
+  context.store.watch(["aside"], ({ aside }) => {
+    list.hidden = aside !== "weights";
+    note.hidden = list.hidden;
+    numbers.hidden = aside !== "numbers";
+  });
   return el(
     "section.panel.recipe",
     { "aria-label": "Recipe" },
-    el("div.line.titled", el("h2", "Recipe"), note),
+    el("div.line.titled", el("h2", "Recipe"), note, aside),
     list,
+    numbers,
     bodyColour(context),
     exports(context),
     notices(context, "recipe"),
   );
+}
+
+/** Its weights, or its numbers; those take somebody who finds recipes by them. */
+function asideChoice({ client, store }: Context): HTMLElement {
+  const { element, mark } = segments(
+    "Recipe as",
+    ASIDES.map((aside) => [aside] as const),
+    (aside) => store.set({ aside }),
+  );
+  store.watch(["aside"], ({ aside }) => mark(aside));
+  element.hidden = client.find === undefined;
+  return element;
 }
 
 function newRow({ store, thumbnails }: Context, name: string): HTMLLIElement {

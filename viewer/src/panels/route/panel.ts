@@ -1,8 +1,8 @@
 // The route: stops as chips, and a strip of small pictures that is the slider for t.
 
+import { asCompared, asComparedKept, comparedStop } from "../../compared";
 import type { Context } from "../../context";
 import { el, icon, iconButton } from "../../dom";
-import { asCompared, asComparedKept, comparedStop } from "../../state";
 import { notices } from "../notices";
 import { stopList } from "./stops";
 import { strip } from "./strip";

@@ -1,10 +1,11 @@
 // Small pictures along t, ticks where the recipe changes its simplex, and a range input on top. With a second row for the
 // space that is compared.
 
+import { comparedSpace } from "../../compared";
 import type { Context } from "../../context";
 import { el, onResize, style } from "../../dom";
 import { type Route, recipeAt } from "../../route";
-import { comparedSpace, isAway } from "../../state";
+import { isAway } from "../../shown";
 
 /** Of the strip, in CSS pixels, however many rows it has; and of the ticks below each. Its height is in the style sheet, too. */
 const HEIGHT = 68;

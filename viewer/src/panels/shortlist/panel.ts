@@ -1,11 +1,12 @@
 // The shortlist: what a person kept, as a row of spheres to look at, to compare, to name and to take home.
 
+import { asComparedKept } from "../../compared";
 import type { Context } from "../../context";
 import { el, iconButton, popover } from "../../dom";
 import { toHash } from "../../permalink";
 import { toDocument } from "../../recipe";
 import { type Kept, keptOf, missingIn, recipeOf } from "../../shortlist";
-import { asComparedKept, blendOf } from "../../state";
+import { blendOf } from "../../shown";
 import { shortName } from "../../title";
 import { takeAll } from "./take";
 

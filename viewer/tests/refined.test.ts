@@ -2,7 +2,7 @@ import { expect, test, vi } from "vitest";
 
 import type { Block } from "../src/api/client";
 import type { RecipeDocument } from "../src/api/schema";
-import { MixedTable } from "../src/mixed";
+import { Refined } from "../src/refined";
 
 interface Question {
   readonly recipe: RecipeDocument;
@@ -18,14 +18,14 @@ function of(a: number): RecipeDocument {
   return { library: "small", blend: "lobes", weights: { a, b: 1 - a } };
 }
 
-/** A mixed table, the questions that it asks, and what it tells. */
+/** A table of a mix, the questions that it asks, and what it tells. */
 function asked() {
   const questions: Question[] = [];
   const came: boolean[] = [];
   const told = { behind: false, problem: null as string | null };
   const settle = () => vi.advanceTimersByTimeAsync(0);
-  const table = new MixedTable({
-    table: (recipe, small, signal) =>
+  const table = new Refined<RecipeDocument, Block>({
+    ask: (recipe, small, signal) =>
       new Promise((resolve, reject) => {
         const answer = () => {
           resolve(BLOCK);
@@ -37,7 +37,7 @@ function asked() {
         };
         questions.push({ recipe, small, signal, answer, fail });
       }),
-    onTable: (_, small) => came.push(small),
+    onAnswer: (_, small) => came.push(small),
     onBehind: (behind) => {
       told.behind = behind;
     },

@@ -1,0 +1,70 @@
+"""Recipes by their attributes, as the page's sliders ask for them."""
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from ..control import Control, Wishes
+from ..instruments import ATTRIBUTES, Attribute, attribute
+from ..recipes import Recipe
+from .schema import AttributesView, AttributeView, FoundView, RecipeDocument, Wanted
+
+_NUMBERS = [each for each in ATTRIBUTES.values() if each.is_number]
+
+
+def attributes_view(control: Control) -> AttributesView:
+    """The attributes that are one number, of all materials."""
+    return AttributesView(attributes=[_view(each, control) for each in _NUMBERS])
+
+
+def _view(wanted: Attribute, control: Control) -> AttributeView:
+    return AttributeView(
+        name=wanted.name,
+        label=wanted.label,
+        unit=wanted.unit,
+        close=wanted.close,
+        needs=wanted.needs,
+        values=[_or_none(value) for value in np.asarray(wanted.of(control.readings.values))],
+    )
+
+
+def found_view(control: Control, like: Recipe, wanted: Wanted) -> FoundView:
+    """The recipe that misses least of what is wanted; without any wishes the one that it shall be like."""
+    wishes = Wishes.of(wanted.set)
+    recipe = (
+        control.find(wishes, like=like, blend=like.blend, clamp=True, draft=wanted.draft)
+        if wanted.set
+        else like
+    )
+    has = control.attributes(recipe)
+    return FoundView(
+        recipe=RecipeDocument.model_validate(recipe.to_json()),
+        attributes={each.name: _or_none(has[each.name]) for each in _NUMBERS},
+        ranges=_ranges(control, wanted, has),
+    )
+
+
+def _ranges(
+    control: Control, wanted: Wanted, has: Mapping[str, Any]
+) -> dict[str, tuple[float, float]]:
+    ends = {name: control.reach(name, _beside(name, wanted.set, has)) for name in wanted.ranges}
+    return {
+        name: (each.low, each.high)
+        for name, each in ends.items()
+        if each and all(map(math.isfinite, each))
+    }
+
+
+def _beside(name: str, asked: Mapping[str, float], has: Mapping[str, Any]) -> Wishes:
+    """What is held while one of the attributes goes as far as it can."""
+    held = {other: value for other, value in asked.items() if other != name}
+    # a* and b* are read beside the lightness that there is; where that goes, they are free.
+    if needs := attribute(name).needs:
+        held.setdefault(needs, has[needs])
+    return Wishes.of({each: v for each, v in held.items() if attribute(each).needs in ("", *held)})
+
+
+def _or_none(value: float) -> float | None:
+    return None if math.isnan(value) else float(value)

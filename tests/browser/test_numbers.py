@@ -1,0 +1,84 @@
+"""Materials by numbers: the sliders, what they find, and what they say when no mix has it."""
+
+import json
+
+from conftest import Explorer  # pyright: ignore[reportMissingImports]
+from numpy.testing import assert_allclose
+from playwright.sync_api import expect
+
+from halfway import attributes, mix
+from halfway.library import ProceduralLibrary
+from halfway.recipes import Recipe
+
+SIZE = {"width": 1280, "height": 900}
+HALFWAY = "#space=linear&pace=uniform&stops=gold-paint,cherry-235&t=0.5&light=points&aside=numbers"
+
+
+def ask(explorer: Explorer, name: str, value: str) -> None:
+    field = explorer.page.locator(f".dials [name={name}]")
+    field.fill(value)
+    field.press("Enter")
+
+
+def taken(explorer: Explorer) -> Recipe:
+    """The recipe that is shown, as it is taken home."""
+    explorer.page.wait_for_selector(".numbers:not(.behind)")
+    with explorer.page.expect_download() as file:
+        explorer.page.get_by_role("button", name="Recipe", exact=True).click()
+    return Recipe.from_json(json.loads(file.value.path().read_text()))
+
+
+def test_a_slider_finds_the_material_that_has_it(
+    explorer: Explorer, library: ProceduralLibrary
+) -> None:
+    page = explorer.page
+    page.set_viewport_size(SIZE)
+    explorer.open(HALFWAY)
+    expect(page.locator("[name=gloss60]")).to_be_enabled()
+    before = attributes(mix(library, taken(explorer)))
+    assert_allclose(float(page.locator("[name=L]").input_value()), before["L"], rtol=0.005)
+    ask(explorer, "gloss60", "20")
+    found = taken(explorer)
+    assert found.names != ("cherry-235", "gold-paint")
+    # Warmer, and as glossy as it was asked for: one number is held while another moves.
+    ask(explorer, "b", "25")
+    warmer = taken(explorer)
+    has = attributes(mix(library, warmer))
+    assert_allclose([has["gloss60"], has["b"]], [20, 25], rtol=1e-4)
+    # The lightness that b* is read beside came along.
+    assert_allclose(has["L"], attributes(mix(library, found))["L"], atol=0.1)
+    explorer.wait_for_picture(1)
+    page.reload()
+    page.wait_for_selector("#app.ready")
+    expect(page.get_by_role("button", name="Back to route")).to_be_visible()
+    again = taken(explorer)
+    assert again.names == warmer.names
+    assert_allclose(again.weights, warmer.weights, atol=1e-3)
+    page.get_by_role("button", name="Back to route").click()
+    assert taken(explorer).names == ("cherry-235", "gold-paint")
+
+
+def test_what_no_mix_has_is_said_and_the_nearest_is_shown(explorer: Explorer) -> None:
+    page = explorer.page
+    page.set_viewport_size(SIZE)
+    explorer.open(HALFWAY)
+    expect(page.locator("[name=gloss60]")).to_be_enabled()
+    ask(explorer, "gloss60", "9999")
+    expect(page.locator(".missing")).to_contain_text("No mix has all of these: Gloss, 60° ")
+    # Of all that there are, chrome is the glossiest.
+    assert taken(explorer).names == ("chrome",)
+    slider = page.locator("[type=range][aria-label^='Specular gloss, 60']")
+    slider.dblclick(position={"x": 3, "y": 5})
+    expect(page.locator("[data-asked=true]")).to_have_count(0)
+    expect(page.locator(".missing")).to_be_empty()
+    assert taken(explorer).names == ("cherry-235", "gold-paint")
+
+
+def test_another_blend_has_it_too(explorer: Explorer, library: ProceduralLibrary) -> None:
+    explorer.page.set_viewport_size(SIZE)
+    explorer.open(HALFWAY.replace("linear", "anchored"))
+    expect(explorer.page.locator("[name=gloss60]")).to_be_enabled()
+    ask(explorer, "gloss60", "15")
+    found = taken(explorer)
+    assert str(found.blend) == "lobes"
+    assert_allclose(attributes(mix(library, found))["gloss60"], 15, atol=0.11)

@@ -1,0 +1,91 @@
+"""Recipes by numbers, as the page asks for them."""
+
+from typing import Any
+
+import pytest
+from fastapi.testclient import TestClient
+from glossy import library
+from numpy.testing import assert_allclose
+
+from halfway import attributes, mix, reach
+from halfway.instruments import ATTRIBUTES
+from halfway.recipes import Blend, Recipe
+from halfway.server import create_app
+
+LIBRARY = library()
+HALF = {"m0": 0.5, "m1": 0.5}
+
+
+@pytest.fixture(scope="module")
+def client() -> TestClient:
+    return TestClient(create_app(LIBRARY), base_url="http://127.0.0.1:8765")
+
+
+def found(client: TestClient, *, blend: Blend = Blend.LINEAR, **asked: Any) -> Any:
+    like = {"library": "glossy", "blend": str(blend), "weights": HALF}
+    answer = client.post("/api/find", json={"like": like, "set": {}, **asked})
+    assert answer.status_code == 200, answer.text
+    return answer.json()
+
+
+def test_all_materials_have_their_attributes(client: TestClient) -> None:
+    listed = {each["name"]: each for each in client.get("/api/attributes").json()["attributes"]}
+    assert list(listed) == [name for name, each in ATTRIBUTES.items() if each.is_number]
+    own = attributes(LIBRARY.brdf("m3"))
+    for name in ("gloss60", "albedo", "b"):
+        assert_allclose(listed[name]["values"][3], own[name], rtol=1e-6)
+    assert (listed["b"]["needs"], listed["L"]["needs"]) == ("L", "")
+
+
+def test_without_wishes_it_is_the_material_itself(client: TestClient) -> None:
+    for blend in (Blend.LINEAR, Blend.LOBES):
+        answer = found(client, blend=blend)
+        assert answer["recipe"]["weights"] == HALF
+        table = mix(LIBRARY, Recipe.of("glossy", HALF, blend=blend))
+        assert_allclose(answer["attributes"]["gloss60"], attributes(table)["gloss60"], rtol=1e-4)
+
+
+@pytest.mark.parametrize("blend", [Blend.LINEAR, Blend.ROOT, Blend.LOBES])
+def test_what_is_asked_for_is_found(client: TestClient, blend: Blend) -> None:
+    asked = {"gloss60": 6.0, "albedo": 0.3}
+    rough, full = (found(client, blend=blend, set=asked, draft=draft) for draft in (True, False))
+    table = mix(LIBRARY, Recipe.from_json(full["recipe"]))
+    has = attributes(table)
+    for name, value in asked.items():
+        near = 1e-5 * value if blend is Blend.LINEAR else ATTRIBUTES[name].close
+        assert_allclose(has[name], value, atol=near)
+        assert_allclose(full["attributes"][name], has[name], rtol=1e-4)
+    # A draft is by smaller tables, of the same materials.
+    assert_allclose(rough["attributes"]["gloss60"], 6.0, rtol=0.25)
+    assert rough["recipe"]["blend"] == full["recipe"]["blend"] == str(blend)
+
+
+def test_a_range_is_that_with_the_others_held(client: TestClient) -> None:
+    asked = {"gloss60": 6.0, "L": 60.0, "b": 10.0}
+    answer = found(client, set=asked, ranges=["albedo", "b", "L", "gloss60"])
+    assert_allclose(answer["ranges"]["albedo"], reach(LIBRARY, "albedo", set=asked), rtol=1e-6)
+    rest = {"gloss60": 6.0, "L": 60.0}
+    assert_allclose(answer["ranges"]["b"], reach(LIBRARY, "b", set=rest), rtol=1e-6)
+    # b* is read beside a lightness: where that goes, b* is free.
+    assert_allclose(answer["ranges"]["L"], reach(LIBRARY, "L", set={"gloss60": 6.0}), rtol=1e-6)
+
+
+def test_a_colour_alone_is_ranged_beside_the_lightness_that_there_is(client: TestClient) -> None:
+    answer = found(client, set={"gloss60": 6.0}, ranges=["b"])
+    held = {"gloss60": 6.0, "L": answer["attributes"]["L"]}
+    assert_allclose(answer["ranges"]["b"], reach(LIBRARY, "b", set=held), rtol=1e-6)
+
+
+def test_out_of_reach_the_nearest_is_found(client: TestClient) -> None:
+    most = reach(LIBRARY, "gloss60").high
+    answer = found(client, set={"gloss60": 2 * most}, ranges=["gloss60", "haze"])
+    assert_allclose(answer["attributes"]["gloss60"], most, rtol=1e-6)
+    # No mix has that, so nothing can go anywhere beside it.
+    assert list(answer["ranges"]) == ["gloss60"]
+
+
+def test_what_cannot_be_asked_for_is_said(client: TestClient) -> None:
+    like = {"library": "glossy", "weights": HALF}
+    answer = client.post("/api/find", json={"like": like, "set": {"glos60": 5}})
+    assert answer.status_code == 400
+    assert answer.json()["error"].startswith("there is no attribute 'glos60': did you mean gloss60")

@@ -1,0 +1,79 @@
+// What a person asks for in numbers: a material like the one that is shown, whose attributes have these values.
+
+import type { AttributeView, RecipeDocument } from "./api/schema";
+import type { Kept } from "./shortlist";
+
+export type Numbers = Readonly<Record<string, number>>;
+
+export interface Asked {
+  /** What it is like; null: the material at t, or at the free point. */
+  readonly like: RecipeDocument | null;
+  readonly set: Numbers;
+}
+
+/** What was found, where one of the shortlist is shown. */
+export const FOUND = "found";
+
+/**
+ * The numbers asked for when one more is, or with null one less. Those that make sense beside another one alone bring it along
+ * as it is now, and go with it.
+ */
+export function asking(
+  set: Numbers,
+  name: string,
+  value: number | null,
+  attributes: readonly AttributeView[],
+  has: Readonly<Record<string, number | null>>,
+): Numbers {
+  const needs = (each: string) => attributes.find((other) => other.name === each)?.needs ?? "";
+  const next = new Map(Object.entries(set));
+  if (value === null) next.delete(name);
+  else next.set(name, value);
+  const beside = needs(name);
+  const present = has[beside];
+  if (value !== null && beside && !next.has(beside) && typeof present === "number") next.set(beside, present);
+  return Object.fromEntries([...next].filter(([each]) => !needs(each) || next.has(needs(each))));
+}
+
+/** Those that were not found, as no mix has them all. */
+export function missed(
+  set: Numbers,
+  has: Readonly<Record<string, number | null>>,
+  attributes: readonly AttributeView[],
+): readonly string[] {
+  return attributes
+    .filter(({ name, close }) => {
+      const [wanted, present] = [set[name], has[name]];
+      return wanted !== undefined && (typeof present !== "number" || Math.abs(present - wanted) > close);
+    })
+    .map(({ name }) => name);
+}
+
+/** What was found, as one of the shortlist would be. */
+export function foundAs(name: string, set: Numbers, recipe: RecipeDocument): Kept {
+  const numbers = Object.entries(set).map(([each, value]) => `${each} ${inDigits(value)}`);
+  return { id: FOUND, name: [name, ...numbers].join(", "), note: "", recipe, link: "" };
+}
+
+/** A number in as many digits as say something. */
+export function inDigits(value: number): string {
+  return String(Number(value.toPrecision(3)));
+}
+
+/** Between a value and where its slider is, in [0, 1]: the values of a library that crowd near 0 are spread by a cube root. */
+export function sliderOf(values: readonly (number | null)[]) {
+  const known = values.filter((value) => value !== null).sort((a, b) => a - b);
+  const [least = 0, most = 1] = [known[0], known.at(-1)];
+  const middle = known[Math.floor(known.length / 2)] ?? 0;
+  const crowded = least >= 0 && middle < most / CROWDED;
+  const [to, back] = crowded ? [Math.cbrt, (x: number) => x ** 3] : [same, same];
+  const [from, width] = [to(least), to(most) - to(least) || 1];
+  return {
+    toShare: (value: number) => Math.min(Math.max((to(value) - from) / width, 0), 1),
+    toValue: (share: number) => back(from + share * width),
+  };
+}
+
+/** The most is so many times what the one in the middle has. */
+const CROWDED = 4;
+const same = (x: number) => x;
