@@ -1,5 +1,6 @@
 """Rows of the page on compatibility: meshes, environments, and our fits in Blender."""
 
+import subprocess
 from collections.abc import Callable
 from pathlib import Path
 
@@ -13,6 +14,7 @@ from halfway.render.assets import read_mesh
 from halfway.render.variant import load_mitsuba
 
 BLENDER = "5.3.0"
+VALIDATOR = "2.0.0-dev.3.10"
 
 
 def in_blender(program: str, folder: Path) -> list[str]:
@@ -113,6 +115,37 @@ print("SAID", [material.name for material in bpy.data.objects["mesh"].data.mater
     return "the stage opens and the mesh wears the material, of which Blender makes no nodes"
 
 
+def validated(folder: Path) -> str:
+    """What Khronos' validator says of the whole built-in library as `.glb`."""
+    for name, brdf in builtin("merl-abc").models.items():
+        write_fit(folder / f"{name}.glb", fit(brdf, "gltf", name=name))
+    (folder / "validate.js").write_text(VALIDATE)
+    install = [
+        "npm",
+        "install",
+        "--silent",
+        "--no-audit",
+        "--no-fund",
+        f"gltf-validator@{VALIDATOR}",
+    ]
+    subprocess.run(install, cwd=folder, check=True, capture_output=True)
+    done = subprocess.run(
+        ["node", "validate.js"], cwd=folder, check=True, capture_output=True, text=True
+    )
+    n_files, n_errors, n_warnings = map(int, done.stdout.split())
+    assert (n_files, n_errors, n_warnings) == (100, 0, 0), done.stdout
+    return "0 errors and 0 warnings"
+
+
+VALIDATE = """
+const { readFileSync, readdirSync } = require("fs");
+const { validateBytes } = require("gltf-validator");
+const files = readdirSync(".").filter((name) => name.endsWith(".glb"));
+Promise.all(files.map((name) => validateBytes(new Uint8Array(readFileSync(name))))).then((reports) => {
+  const sum = (key) => reports.reduce((total, report) => total + report.issues[key], 0);
+  console.log(files.length, sum("numErrors"), sum("numWarnings"));
+});
+"""
 STAGE = """#usda 1.0
 def Xform "root" {
     def "mtl" (references = @./001.mtlx@</MaterialX>) {}
@@ -161,6 +194,7 @@ SCENES = {
         Row(f"Blender {BLENDER}", "run", "Radiance HDR", blenders_picture("HDR", "x.hdr")),
     ],
     "Fits in other programs": [
+        Row(f"Khronos glTF Validator {VALIDATOR}", "run", "`.glb` of `halfway fit`, of each of the 100 built-in materials", validated),
         Row(f"Blender {BLENDER}", "run", "`.glb` of `halfway fit`", lights_in_blender),
         Row(f"Blender {BLENDER}, USD with MaterialX", "run", "a stage that references `.mtlx` of a material called 001", usd_in_blender),
     ],

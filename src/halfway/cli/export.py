@@ -14,6 +14,7 @@ class Renderer(StrEnum):
     mitsuba = "mitsuba"
     pbrt_v2 = "pbrt-v2"
     pbrt_v4 = "pbrt-v4"
+    usd = "usd"
 
 
 def export(
@@ -27,12 +28,13 @@ def export(
 ) -> None:
     """Write materials for another renderer: a folder with the material, a scene and a page, to be run as it is.
 
-    Several materials get a folder each, below DIR.
+    Several materials get a folder each, below DIR; usd has all of them in one layer, fitted.
 
     \b
     halfway export gold-paint --for mitsuba -o gold
     halfway export builtin:merl-abc:teflon --for pbrt-v4 -o teflon
     halfway export recipes.json --for pbrt-v2 -o frames
+    halfway export builtin:merl-abc --for usd -o materials
     """
     from halfway.batch import filling
     from halfway.export import write_scenes

@@ -16,6 +16,9 @@ class Model(StrEnum):
     openpbr = "openpbr"
     principled = "principled"
     gltf = "gltf"
+    gltf_blender = "gltf-blender"
+    gltf_core = "gltf-core"
+    preview = "preview"
 
 
 FittedFile = Annotated[

@@ -46,12 +46,17 @@ def to_materialx(fit: Fit) -> str:
             parameter, mx.Color3(*value) if colour else value, "color3" if colour else "float"
         )
     material = document.addMaterialNode(name, surface)
-    true_name = "".join(c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in fit.name)
+    true_name = printable(fit.name)
     material.setAttribute("uiname", true_name)
     material.setDocString(f"{true_name}, {fit.summary}")
     text = mx.writeToXmlString(document)
     _require_valid(text, fit.name)
     return text
+
+
+def printable(name: str) -> str:
+    """A name as documents may hold it: what cannot be printed is replaced."""
+    return "".join(c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in name)
 
 
 def identifier(name: str) -> str:

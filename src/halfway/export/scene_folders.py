@@ -1,12 +1,14 @@
-"""Materials for another renderer: one fills the folder with its scene, several have a folder each in it."""
+"""Materials for another renderer: one fills the folder with its scene, several have a folder each in it; USD holds all in one."""
 
 import json
 from collections.abc import Sequence
 from pathlib import Path
 
+from ..files import replacing
 from ..recipes import NamedBrdf, file_names
 from ..tasks import HERE, Work
-from .scenes import SceneFolder, write_scene
+from .scenes import SceneFolder, readme, write_scene
+from .usd import MATERIALS, SCENE, Fits, write_usd
 
 
 def write_scenes(
@@ -23,6 +25,8 @@ def write_scenes(
     OutputError
         As `write_scene`.
     """
+    if renderer == "usd":
+        return [_write_usd(folder, materials, work)]
     one = len(materials) == 1
     folders = [folder] if one else [folder / name for name in file_names(materials, "")]
     pairs = list(zip(materials, folders, strict=True))
@@ -30,6 +34,28 @@ def write_scenes(
         write_scene(own, brdf.load(), renderer, name=brdf.label, origin=_origin(brdf))
         for brdf, own in work.track(pairs, "Exporting", len(pairs))
     ]
+
+
+def _write_usd(folder: Path, materials: Sequence[NamedBrdf], work: Work) -> SceneFolder:
+    from ..fit import fit  # what optimises takes a second to load
+
+    fits: list[Fits] = []
+    for material in work.track(materials, "Exporting", len(materials)):
+        brdf = material.load()
+        fits.append(Fits(*(fit(brdf, model, name=material.label) for model in Fits._fields)))
+    write_usd(folder, fits)
+    # Materials of one library share most lines.
+    origin = "\n".join(dict.fromkeys("\n".join(map(_origin, materials)).splitlines())).strip()
+    page = folder / "README.md"
+    with replacing(page) as temporary:
+        what = "Spheres that wear the materials, in any program that opens USD; for instance:"
+        text = readme("Materials for USD", origin, what, f"usdview {SCENE}", _USD)
+        temporary.write_text(text, encoding="utf-8")
+    return SceneFolder(folder, (folder / MATERIALS, folder / SCENE, page), f"usdview {SCENE}")
+
+
+_USD = f"""`{MATERIALS}` holds each material as MaterialX's OpenPBR and as UsdPreviewSurface, both fitted; what each fit is worth stands in its
+`doc`. Add the layer to a stage and bind `/Materials/NAME`."""
 
 
 def _origin(material: NamedBrdf) -> str:

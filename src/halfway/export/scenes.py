@@ -102,7 +102,8 @@ def write_scene(
             raise OutputError(
                 f"{renderer} is no renderer to export to: expected {' or '.join(RENDERERS)}."
             )
-    texts["README.md"] = _readme(name, origin, command, notes)
+    what = f"A sphere of {name}, under an even environment and three point lights."
+    texts["README.md"] = readme(name, origin, f"{what} In this folder:", command, notes)
     for file, text in texts.items():
         with replacing(folder / file) as temporary:
             temporary.write_text(text, encoding="utf-8")
@@ -206,12 +207,7 @@ _FLOOR = """pbrt-v2 takes the value of the cell that a pair of directions falls 
 as black, and samples the cosine only: give mirror-like materials more `pixelsamples`."""
 
 
-def _readme(name: str, origin: str, command: str, notes: str) -> str:
-    paragraphs = [
-        f"# {name}",
-        origin,
-        f"A sphere of {name}, under an even environment and three point lights. In this folder:",
-        f"    {command}",
-        notes,
-    ]
+def readme(title: str, origin: str, what: str, command: str, notes: str) -> str:
+    """The page of a folder: what is in it, whose numbers those are, the command that shows it."""
+    paragraphs = [f"# {title}", origin, what, f"    {command}", notes]
     return "\n\n".join(filter(None, paragraphs)) + "\n"

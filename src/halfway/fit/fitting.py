@@ -17,7 +17,7 @@ from threadpoolctl import threadpool_limits
 from .._types import Values
 from ..brdf import Brdf, Quality, directional_albedo, lit_sphere, quality
 from ..errors import HalfwayError
-from .gltf import Gltf
+from .gltf import Gltf, GltfBlender, GltfCore, PreviewSurface
 from .metric import Target, Terms
 from .model import AnalyticModel, Vector
 from .openpbr import OpenPbr
@@ -27,6 +27,9 @@ MODELS: dict[str, type[AnalyticModel]] = {
     "openpbr": OpenPbr,
     "principled": Principled,
     "gltf": Gltf,
+    "gltf-blender": GltfBlender,
+    "gltf-core": GltfCore,
+    "preview": PreviewSurface,
 }
 """The models by name."""
 DEFAULT_MODEL = "openpbr"
@@ -72,7 +75,7 @@ class Fit:
     @property
     def model_name(self) -> str:
         """The model's, one of `MODELS`."""
-        return next(name for name, kind in MODELS.items() if isinstance(self.model, kind))
+        return next(name for name, kind in MODELS.items() if type(self.model) is kind)
 
     @property
     def summary(self) -> str:

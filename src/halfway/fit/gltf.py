@@ -107,6 +107,38 @@ class _InBlender(Gltf):
         return self.specular * f0 + (1 - self.specular * f0) * white
 
 
+class GltfCore(Gltf):
+    """The part without extensions, which all programs read alike."""
+
+    formula = "glTF 2.0 without extensions"
+    ranges: ClassVar = {name: Gltf.ranges[name] for name in ("base_color", "metallic", "roughness")}
+    simpler: ClassVar = ()
+    readings: ClassVar = {}
+
+
+class GltfBlender(Gltf):
+    """The part that Blender reads as the specification has it: its edge is white, and so is glTF's where ``specular`` is 1."""
+
+    formula = "glTF 2.0 as Blender reads it"
+    ranges: ClassVar = {name: r for name, r in Gltf.ranges.items() if name != "specular"}
+    simpler: ClassVar = ()
+    readings: ClassVar = {}
+
+
+class PreviewSurface(Gltf):
+    """``UsdPreviewSurface`` in its metallic workflow: glTF's model with an index and a clearcoat, without tints of the gloss.
+
+    Source: Pixar, UsdPreviewSurface Specification 2.6.
+    """
+
+    formula = "UsdPreviewSurface"
+    ranges: ClassVar = {
+        name: r for name, r in Gltf.ranges.items() if not name.startswith("specular")
+    }
+    simpler: ClassVar = ()
+    readings: ClassVar = {}
+
+
 def _lobe(theta_h: Angle, cos_i: Angle, cos_o: Angle, roughness: float) -> Angle:
     a = max(LEAST_WIDTH, roughness**2)
     return ggx(theta_h, a) * smith(cos_i, a) * smith(cos_o, a) / (4 * cos_i * cos_o)
