@@ -46,6 +46,7 @@ BLOCKS_NOT_RUN = {"cluster": "needs a cluster (tested in test_cluster)"}
 """The pages whose Python is not run here, and why."""
 GIVEN = {
     "metal": "halfway route cherry-235 tungsten-carbide -n 5 -o metal",
+    "set": "halfway sample -n 3 --split all=100 --blend linear -o set",
     "new.binary": 'halfway mix "gold-paint=0.7, teflon=0.3" -o new.binary',
 }
 """What pages beside the tutorial take for made, and how."""

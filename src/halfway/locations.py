@@ -19,6 +19,8 @@ from .errors import MissingExtraError, RemoteError
 SCHEME = "://"
 BUILTIN_PREFIX = "builtin:"
 """How the address of a library that comes with the package begins."""
+PERMUTED_PREFIX = "permuted:"
+"""How the address of a library begins whose materials are taken in all orders of their colour channels."""
 DEFAULT_LIBRARY = f"{BUILTIN_PREFIX}merl-abc"
 """The library that is meant where none is named."""
 _PACKAGES = {"s3": "s3fs", "gs": "gcsfs"}

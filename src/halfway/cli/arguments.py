@@ -101,6 +101,20 @@ def parse_targets(texts: Sequence[str]) -> dict[str, str]:
     return targets
 
 
+def parse_shares(text: str) -> dict[str, float]:
+    """The shares written as ``train=80,test=20``."""
+    shares: dict[str, float] = {}
+    for part in text.split(","):
+        name, _, share = (piece.strip() for piece in part.partition("="))
+        try:
+            shares[name] = float(share)
+        except ValueError:
+            raise ArgumentError(
+                f"{part!r} is no name with its share: expected such as train=80,test=20."
+            ) from None
+    return shares
+
+
 def parse_range(text: str) -> tuple[str, float, float]:
     """The attribute and its ends written as ``gloss60=5:80``."""
     name, _, ends = text.partition("=")

@@ -8,9 +8,10 @@ if TYPE_CHECKING:
     from .fits import MODEL_OF, model_of, write_fit
     from .materials import recipe_beside, write_material, write_materials, write_recipe
     from .report import Report, TableRow, write_report
-    from .routes import Written, write_route
+    from .routes import write_route
     from .scene_folders import write_scenes
     from .scenes import write_scene
+    from .tables import Written, write_tables
 
 __all__ = [
     "MODEL_OF",
@@ -28,6 +29,7 @@ __all__ = [
     "write_route",
     "write_scene",
     "write_scenes",
+    "write_tables",
 ]
 
 # Who writes a table does not wait for what draws figures.
@@ -35,9 +37,10 @@ _HOMES = {
     "fits": ("MODEL_OF", "model_of", "write_fit"),
     "materials": ("recipe_beside", "write_material", "write_materials", "write_recipe"),
     "report": ("Report", "TableRow", "write_report"),
-    "routes": ("Written", "write_route"),
+    "routes": ("write_route",),
     "scene_folders": ("write_scenes",),
     "scenes": ("write_scene",),
+    "tables": ("Written", "write_tables"),
 }
 
 

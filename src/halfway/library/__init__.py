@@ -10,6 +10,7 @@ from .compact import CompactLibrary
 from .joined import Joined
 from .library import Library, LibraryRef, Streamed, Verdict
 from .opening import open_library
+from .permuted import Permuted
 from .procedural import ProceduralLibrary
 from .stored import StoredLibrary, is_stored
 from .subset import Subset
@@ -22,6 +23,7 @@ __all__ = [
     "Library",
     "LibraryRef",
     "Origin",
+    "Permuted",
     "Precision",
     "ProceduralLibrary",
     "StoredLibrary",

@@ -4,6 +4,7 @@ builtin:merl-abc        published fits that come with the package; builtin:aniso
 folder.brdflib          a stored library, here or at a URL such as s3://bucket/folder.brdflib
 merl_nbrdf.zip          an archive of neural fits, decoded when asked for
 library.brdfc           a compact library (or its URL): principal components, reconstructed when asked for
+permuted:LIB            one of these, each material in all orders of its colour channels
 """
 
 import zipfile
@@ -11,11 +12,12 @@ import zipfile
 from ..errors import LibraryError
 from ..formats import read_nbrdf_archive
 from ..halfdiff import Grid
-from ..locations import BUILTIN_PREFIX, Location, RemotePath, to_location
+from ..locations import BUILTIN_PREFIX, PERMUTED_PREFIX, Location, RemotePath, to_location
 from ..models import BUILTIN, builtin
 from . import compact_file
 from .compact import CompactLibrary
 from .library import Library
+from .permuted import Permuted
 from .procedural import ProceduralLibrary
 from .stored import StoredLibrary
 
@@ -30,6 +32,8 @@ def open_library(where: str | Location, *, grid: Grid | None = None) -> Library:
     LibraryError
         When there is no such library.
     """
+    if str(where).startswith(PERMUTED_PREFIX):
+        return Permuted(open_library(str(where).removeprefix(PERMUTED_PREFIX), grid=grid))
     if str(where).startswith(BUILTIN_PREFIX):
         built_in = builtin(str(where).removeprefix(BUILTIN_PREFIX))
         return ProceduralLibrary(

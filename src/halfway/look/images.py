@@ -73,12 +73,17 @@ class Looks:
         if blend is Blend.LINEAR:
             return self._sum(weights)
         flat = weights.reshape(3, -1, weights.shape[-1])
-        sphere = _sphere(self.scene, self.tables.grid, self.step)
         chunks = (
-            sphere.pictures(self.tables.mix(flat[:, start : start + N_AT_ONCE], blend))
+            self.of_tables(self.tables.mix(flat[:, start : start + N_AT_ONCE], blend))
             for start in range(0, flat.shape[1], N_AT_ONCE)
         )
         return np.concatenate(list(chunks)).reshape(*weights.shape[1:-1], -1, 3)
+
+    def of_tables(
+        self, tables: Float32[np.ndarray, "3 k p"]
+    ) -> Float32[np.ndarray, "k n_pixels 3"]:
+        """Linear RGB of small tables, as ``self.tables.mix`` gives them."""
+        return _sphere(self.scene, self.tables.grid, self.step).pictures(tables)
 
     def _sum(self, weights: Float[np.ndarray, "3 *k N"]) -> Float32[np.ndarray, "*k n_pixels 3"]:
         """Direct light is linear in the BRDF: the picture of a linear mix is the mix of the pictures."""

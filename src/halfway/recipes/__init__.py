@@ -2,7 +2,7 @@
 
 from .blend import Blend
 from .mixing import Mixer, aligned_mean, mix
-from .named import NamedBrdf, file_names
+from .named import NamedBrdf, file_names, file_stem
 from .opening import (
     ChangedLibraryWarning,
     is_library,
@@ -22,6 +22,7 @@ __all__ = [
     "Recipe",
     "aligned_mean",
     "file_names",
+    "file_stem",
     "is_library",
     "mix",
     "open_materials",

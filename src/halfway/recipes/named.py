@@ -68,7 +68,12 @@ def file_names(materials: Sequence[NamedBrdf], suffix: str) -> list[str]:
     seen = Counter[str]()
     names: list[str] = []
     for material in materials:
-        stem = re.sub(r"[^\w.+=-]+", "-", material.stem).strip("-.") or "material"
+        stem = file_stem(material.stem)
         seen[stem] += 1
         names.append(f"{stem}-{seen[stem]}{suffix}" if seen[stem] > 1 else f"{stem}{suffix}")
     return names
+
+
+def file_stem(name: str) -> str:
+    """A name as part of a file's, whatever is in it."""
+    return re.sub(r"[^\w.+=-]+", "-", name).strip("-.") or "material"

@@ -5,7 +5,7 @@ LIB:gold-paint                      one of another
 "gold-paint=0.7, teflon=0.3"        weights; also LIB:WEIGHTS
 "scan.binary=0.5, chrome=0.5"       weights of files, beside materials or not
 recipe.json, recipes.json:25        a recipe in a file, one of a route's
-recipes.json, or its folder         all of a route's
+recipes.json, or its folder         all of a route's, or of a set's
 scan.binary, or a folder of files   BRDFs as their files have them
 LIB                                 all materials of a library
 """
@@ -24,7 +24,7 @@ from ..errors import RecipeError
 from ..formats import read_brdf
 from ..halfdiff import common_grid
 from ..library import DEFAULT_LIBRARY, Library, LibraryRef, Origin, ProceduralLibrary, open_library
-from ..locations import Location, RemotePath, to_location
+from ..locations import PERMUTED_PREFIX, Location, RemotePath, to_location
 from .blend import Blend
 from .mixing import Mixer
 from .named import NamedBrdf, made_of
@@ -47,6 +47,7 @@ def split_library(words: Sequence[str]) -> tuple[str, list[str]]:
 
 def is_library(word: str) -> bool:
     """Whether a word names a library rather than a material."""
+    word = word.removeprefix(PERMUTED_PREFIX)
     path = to_location(word)
     return (
         re.fullmatch("builtin:[^:]*", word) is not None
@@ -161,10 +162,13 @@ def _folder(folder: Path) -> Iterator[NamedBrdf]:
 def _route(path: Location, elsewhere: str) -> Iterator[NamedBrdf]:
     document = _read_object(path)
     try:
-        entries = [(f"{entry['t']:.2f}", entry) for entry in document["recipes"]]
+        entries = [
+            (str(entry["name"]) if "name" in entry else f"{entry['t']:.2f}", entry)
+            for entry in document["recipes"]
+        ]
     except (KeyError, TypeError, AttributeError, ValueError):
         raise RecipeError(
-            f"{path} is no route: expected recipes.json as `halfway route` writes it."
+            f"{path} holds no recipes: expected recipes.json as `halfway route` or `halfway sample` writes it."
         ) from None
     library = _library_of(document, path, elsewhere)
     mixer = Mixer(library)
