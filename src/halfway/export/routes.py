@@ -24,13 +24,12 @@ from ..batch import Batch, Checksum
 from ..brdf import TabularBrdf, half_scale
 from ..errors import OutputError
 from ..files import replacing
-from ..formats import merl_bytes, write_brdf
+from ..formats import merl_bytes, write_brdf, zarr_tables
 from ..library import Library, LibraryRef, is_stored
 from ..locations import Location, absolute, name_in
 from ..recipes import Mixer, Recipe
 from ..space import Route
 from ..tasks import HERE, Work
-from . import zarr_tables
 
 FORMATS = ("none", "merl", "bsdf", "zarr")
 RECIPES = "recipes.json"
