@@ -10,12 +10,13 @@ from typing import NamedTuple
 
 import numpy as np
 from exr_files import exr
+from gonio_files import csail, utia
 from written_files import keras, keras_model, keras_numbered, merl, nbrdf_layers, zipped
 
 from halfway import Brdf, Grid, TabularBrdf
 from halfway.errors import RenderError
 from halfway.fetch.unpack import unpack
-from halfway.formats import find_brdfs, read_brdf, write_brdf
+from halfway.formats import find_brdfs, read_brdf, write_brdf, write_zarr
 from halfway.formats.tensor_file import write_tensor_file
 from halfway.library import StoredLibrary, build_library
 
@@ -51,6 +52,10 @@ def subjects(folder: Path) -> dict[str, Subject]:
         "merl-order": Subject(_in_another_order(), _read_brdf),
         "rgl": Subject(_tensors(folder, _rgl()), _read_brdf),
         "rgl-spectral": Subject(_tensors(folder, _spectral()), _read_brdf),
+        "csail": Subject(csail(_table(0.2), (2, 2, 2, 3)), _read_brdf),
+        "utia": Subject(utia(_table(0.2)), _read_brdf),
+        "zarr": Subject(_zarr(folder, "zarr.json"), _zarr_with(folder, "zarr.json")),
+        "zarr-chunk": Subject(_zarr(folder, _CHUNK), _zarr_with(folder, _CHUNK)),
         "nbrdf": Subject(_nbrdf(), _read_brdf),
         "nbrdf-model": Subject(keras_model(_nbrdf()), _read_brdf),
         "nbrdf-numbered": Subject(keras_numbered(nbrdf_layers()), _read_brdf),
@@ -80,6 +85,28 @@ def _table(value: float) -> TabularBrdf:
 def _read_brdf(content: bytes, folder: Path) -> None:
     (folder / "spoilt").write_bytes(content)
     _use(read_brdf(folder / "spoilt"))
+
+
+_CHUNK = "c.0.0.0.0.0"
+
+
+def _zarr(folder: Path, name: str) -> bytes:
+    write_zarr(folder / "clay.zarr", _table(0.1))
+    return (folder / "clay.zarr" / name).read_bytes()
+
+
+def _zarr_with(folder: Path, name: str) -> Callable[[bytes, Path], None]:
+    """Reads a Zarr store of which one file is spoilt."""
+    valid = {file.name: file.read_bytes() for file in (folder / "clay.zarr").iterdir()}
+
+    def read(content: bytes, place: Path) -> None:
+        store = place / "spoilt.zarr"
+        store.mkdir(exist_ok=True)
+        for file, bytes_ in {**valid, name: content}.items():
+            (store / file).write_bytes(bytes_)
+        _use(read_brdf(store))
+
+    return read
 
 
 def _read_mesh(suffix: str) -> Callable[[bytes, Path], None]:

@@ -126,7 +126,8 @@ def test_a_single_file_that_is_no_brdf_is_an_error_not_skipped(folder):
     with pytest.raises(FormatError) as error:
         find_brdfs([folder / "brdfs/README.txt"])
     assert str(error.value) == (
-        "README.txt is text: expected a MERL table, a neural BRDF (.h5) or an RGL material (.bsdf)."
+        "README.txt is text: expected a MERL table, a neural BRDF (.h5), an RGL material (.bsdf), "
+        "a UTIA (.bin) or MIT CSAIL table, or a Zarr store."
     )
 
 

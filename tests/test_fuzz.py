@@ -101,7 +101,7 @@ def valid(folder):
     return Subjects(subjects(folder / "valid"))
 
 
-KINDS = ["merl", "merl-order", "rgl", "rgl-spectral", "nbrdf", "nbrdf-model", "nbrdf-numbered", "zip", "unpack", "ply", "ply-text", "obj", "hdr", "exr", "library", "tables", "recipe", "route", "words"]  # fmt: skip
+KINDS = ["merl", "merl-order", "rgl", "rgl-spectral", "csail", "utia", "zarr", "zarr-chunk", "nbrdf", "nbrdf-model", "nbrdf-numbered", "zip", "unpack", "ply", "ply-text", "obj", "hdr", "exr", "library", "tables", "recipe", "route", "words"]  # fmt: skip
 
 
 def test_every_kind_is_spoilt(valid):

@@ -11,7 +11,7 @@ from scipy.integrate import dblquad
 from halfway import attributes
 from halfway.brdf import TabularBrdf, fresnel
 from halfway.brdf.quadrature import Windows
-from halfway.errors import AnisotropyError, ControlError
+from halfway.errors import ControlError
 from halfway.halfdiff import Axis, Grid, cosines
 from halfway.instruments import ATTRIBUTES, Readings, attribute, of_readings, read_table
 from halfway.instruments.functionals import INSTRUMENTS, PROFILE, RECEPTORS, SOURCE
@@ -160,10 +160,13 @@ def test_attributes_have_names_that_are_told():
         attribute("body").parsed("brown")
 
 
-def test_anisotropic_tables_are_refused():
+def test_an_instrument_reads_the_mean_over_turns_of_an_anisotropic_sample():
     grid = Grid((*GRID.axes, Axis("phi_h", 4, 2 * np.pi, periodic=True)))
-    with pytest.raises(AnisotropyError, match="phi_h"):
-        attributes(TabularBrdf(np.ones((3, *grid.shape), np.float32), grid))
+    values = np.random.default_rng(0).gamma(1, size=(3, *grid.shape)).astype(np.float32)
+    values[:, ~grid.mask()] = np.nan
+    table = TabularBrdf(values, grid)
+    mean = TabularBrdf(values.mean(axis=-1, dtype=np.float64).astype(np.float32), GRID)
+    assert_allclose(read_table(table), read_table(mean), rtol=1e-5)
 
 
 def test_what_readings_stand_for_has_every_attribute():

@@ -4,16 +4,11 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from halfway import Grid, TabularBrdf, directional_albedo, mix
-from halfway.brdf import check, lit_sphere, repair
-from halfway.brdf.albedo_operator import albedos
+from halfway import Grid, TabularBrdf, directional_albedo
 from halfway.errors import AnisotropyError
 from halfway.fit import fit
-from halfway.formats import write_rgl
 from halfway.halfdiff import Axis, from_half_diff
 from halfway.library import Library, ProceduralLibrary
-from halfway.look import PACING_SCENE, SphereOperator
-from halfway.recipes import Recipe
 
 PHI_H = Axis("phi_h", 8, 2 * np.pi, periodic=True)
 GRID = Grid((*Grid.merl(6, 4, 6).axes, PHI_H))
@@ -51,37 +46,13 @@ def test_a_turned_table_reflects_otherwise():
     assert np.abs(along / across - 1).min() > 0.1
 
 
-@pytest.mark.parametrize(
-    ("of", "quantity"),
-    [
-        (lambda table: directional_albedo(table, 0.5), "its albedo"),
-        (lambda table: albedos(table, np.array([0.5])), "its albedo"),
-        (check, "its check"),
-        (repair, "its repair"),
-        (lit_sphere, "its lit sphere"),
-        (lambda table: SphereOperator.of(PACING_SCENE, table.grid), "its lit sphere"),
-        (lambda table: fit(table, name=table.name), "its fit"),
-    ],
-)
-def test_what_looks_at_one_azimuth_refuses(of, quantity):
+def test_a_fit_refuses():
     with pytest.raises(AnisotropyError) as raised:
-        of(brushed())
+        fit(brushed(), name="brushed")
     said = str(raised.value)
     assert "depends on phi_h (it is anisotropic)" in said
-    assert f": {quantity} is worked out for isotropic materials only." in said
+    assert ": its fit is worked out for isotropic materials only." in said
     assert "\n" not in said
-
-
-def test_no_rgl_file_of_one_azimuth_is_written(tmp_path):
-    with pytest.raises(AnisotropyError, match=r"^brushed depends on phi_h"):
-        write_rgl(tmp_path / "brushed.bsdf", brushed())
-    assert not list(tmp_path.iterdir())
-
-
-def test_anisotropic_tables_are_not_mixed():
-    recipe = Recipe.from_text("brushes", "a=.5, b=.5")
-    with pytest.raises(AnisotropyError, match=r"^brushes depends on phi_h .*: a mix is worked out"):
-        mix(library(), recipe)
 
 
 def test_they_are_stored_and_come_back():

@@ -3,13 +3,12 @@
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
-from rgl_files import directions, fields, plugin_values, viewers
+from rgl_files import directions, plugin_values, viewers
 
 from halfway import MERL, Grid, TabularBrdf, tabulate
 from halfway.brdf.quality import Quality, lit_sphere, quality
 from halfway.errors import FormatError, OutputError
 from halfway.formats import read_rgl
-from halfway.formats.rgl_reader import from_fields
 from halfway.formats.rgl_writer import RESOLUTIONS, WAVELENGTHS, Resolution, write_rgl
 from halfway.formats.spectra import smooth_primaries
 from halfway.formats.tensor_file import read_tensor_file
@@ -104,13 +103,6 @@ def test_what_is_unmeasured_everywhere_is_refused(tmp_path):
 def test_negative_values_are_written_as_0(tmp_path):
     write_rgl(tmp_path / "x.bsdf", constant(-0.1), resolution=COARSE)
     assert read_tensor_file(tmp_path / "x.bsdf")["rgb"].min() == 0
-
-
-def test_an_anisotropic_material_is_written_as_its_mean(tmp_path):
-    aniso = from_fields(fields(np.random.default_rng(5), n_phi=5), "silk.bsdf")
-    with pytest.warns(UserWarning, match="is anisotropic"):
-        write_rgl(tmp_path / "x.bsdf", aniso, resolution=COARSE)
-    assert read_rgl(tmp_path / "x.bsdf").is_isotropic
 
 
 def test_a_measurement_comes_back_through_table_and_file(shared_data, tmp_path):

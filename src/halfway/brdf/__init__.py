@@ -13,7 +13,7 @@ from .metrics import difference
 from .quality import Quality, lit_sphere, quality
 from .reciprocal import Measurement
 from .repair import repair
-from .table import TabularBrdf, half_scale, own_grid, tabulate
+from .table import TabularBrdf, blend, half_scale, own_grid, tabulate
 
 __all__ = [
     "Brdf",
@@ -24,6 +24,7 @@ __all__ = [
     "ValidityCard",
     "albedos",
     "anisotropy",
+    "blend",
     "check",
     "difference",
     "directional_albedo",

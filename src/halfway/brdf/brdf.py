@@ -52,6 +52,10 @@ class Brdf(ABC):
         """The mean over turns about the normal, which is isotropic; itself if it is that already."""
         return self if self.is_isotropic else TurnedMean(self)
 
+    def scaled(self, factor: float) -> "Brdf":
+        """The material with its values times a positive number."""
+        return Scaled(self, factor)
+
     def sample_rows(self, grid: Grid, rows: Part) -> Table:
         """Samples at the cell centres of a part of the grid; NaN off the grid's mask.
 
@@ -118,6 +122,35 @@ class TurnedMean(Brdf):
 
     def fingerprint(self) -> bytes:
         return b"turned mean of " + self.material.fingerprint()
+
+
+class Scaled(Brdf):
+    """A material with its values times a number."""
+
+    def __init__(self, material: Brdf, factor: float) -> None:
+        self.material = material
+        self.factor = factor
+        self.name = str(getattr(material, "name", ""))
+
+    @property
+    def is_isotropic(self) -> bool:
+        return self.material.is_isotropic
+
+    @property
+    def about(self) -> str:
+        return f"{self.material.about}, times {self.factor:g}"
+
+    def turned_mean(self) -> Brdf:
+        return self.material.turned_mean().scaled(self.factor)
+
+    def eval(self, wi: Directions, wo: Directions) -> Values:
+        return self.factor * self.material.eval(wi, wo)
+
+    def fingerprint(self) -> bytes:
+        return f"{self.factor!r} times ".encode() + self.material.fingerprint()
+
+    def _sample_rows(self, grid: Grid, rows: Part) -> Table:
+        return np.float32(self.factor) * self.material.sample_rows(grid, rows)
 
 
 def turns() -> Iterator[float]:

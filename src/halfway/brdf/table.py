@@ -94,13 +94,16 @@ class TabularBrdf(Brdf):
         values = np.empty((len(above_i), 3))
         for start in range(0, len(values), _CHUNK):
             chunk = slice(start, start + _CHUNK)
-            values[chunk] = self._blend(lookup(above_i[chunk], above_o[chunk])).T
+            values[chunk] = blend(self.values, lookup(above_i[chunk], above_o[chunk])).T
         result = np.zeros((*lit.shape, 3))
         result[lit] = values
         return result
 
     def fingerprint(self) -> bytes:
         return hashlib.sha256(np.ascontiguousarray(self.values).data).digest()
+
+    def scaled(self, factor: float) -> Brdf:
+        return TabularBrdf(self.values * np.float32(factor), self.grid, name=self.name)
 
     def turned_mean(self) -> Brdf:
         if self.is_isotropic:
@@ -117,13 +120,15 @@ class TabularBrdf(Brdf):
             return super()._sample_rows(grid, rows)
         return self.values[(slice(None), *(rows if isinstance(rows, tuple) else (rows,)))]
 
-    def _blend(self, corners: Corners) -> Float64[np.ndarray, "3 n"]:
-        samples = np.take(self.values.reshape(3, -1), corners.cells, axis=1)
-        blended = np.einsum("cjn,jn->cn", samples, corners.weights)
-        partly = np.isnan(blended).any(axis=0)
-        if partly.any():
-            blended[:, partly] = _renormalised(samples[..., partly], corners.weights[:, partly])
-        return blended
+
+def blend(values: Table, corners: Corners) -> Float64[np.ndarray, "3 n"]:
+    """The weighted mean of the samples at the corners that are measured; NaN where none is."""
+    samples = np.take(values.reshape(3, -1), corners.cells, axis=1)
+    blended = np.einsum("cjn,jn->cn", samples, corners.weights)
+    partly = np.isnan(blended).any(axis=0)
+    if partly.any():
+        blended[:, partly] = _renormalised(samples[..., partly], corners.weights[:, partly])
+    return blended
 
 
 def _renormalised(

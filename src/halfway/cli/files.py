@@ -27,6 +27,7 @@ Material = Annotated[
 class Suffix(StrEnum):
     binary = "binary"
     bsdf = "bsdf"
+    zarr = "zarr"
     mtlx = "mtlx"
     gltf = "gltf"
     glb = "glb"
@@ -45,7 +46,7 @@ def convert(
         Path | None,
         typer.Argument(
             metavar="[OUT]",
-            help=".binary (MERL) or .bsdf (RGL); .mtlx, .gltf, .glb: a fitted model; no suffix: a folder.",
+            help=".binary (MERL), .bsdf (RGL) or .zarr; .mtlx, .gltf, .glb: a fitted model; no suffix: a folder.",
         ),
     ] = None,
     output: Annotated[
@@ -56,6 +57,9 @@ def convert(
     spectral: Annotated[
         bool, typer.Option(help="A .bsdf with spectra, for pbrt-v4 and spectral Mitsuba.")
     ] = False,
+    scale: Annotated[
+        float, typer.Option(help="Multiply the values: some files do not say their unit.")
+    ] = 1.0,
     library: options.Library = "",
     force: options.Force = False,
 ) -> None:
@@ -66,6 +70,7 @@ def convert(
     halfway convert builtin:merl-abc:teflon teflon.bsdf --spectral
     halfway convert gold.binary gold.mtlx                               an analytic fit: see halfway fit
     halfway convert builtin:merl-abc tables --grid 30x30x60
+    halfway convert fabric.bin fabric.zarr --grid 64x90x24x20 --scale .3183
     """
     from halfway.batch import filling
     from halfway.export import recipe_beside, write_material, write_materials
@@ -77,6 +82,8 @@ def convert(
     if out is None or (output and target):
         raise ArgumentError("convert takes IN and OUT: expected one file or folder to write.")
     materials, cells = open_materials([source], library=library), parse_grid(grid)
+    if scale != 1:
+        materials = [material.scaled(scale) for material in materials]
     if not out.suffix:
         with filling(out, "convert", force=force) as folder:
             suffix = f".{format}"

@@ -9,7 +9,7 @@ import numpy as np
 from jaxtyping import Float64
 
 from .._types import Table
-from ..brdf import Brdf, require_isotropic
+from ..brdf import Brdf
 from ..library import Library, ProceduralLibrary
 from ..recipes import Blend
 from ..tasks import HERE, Work
@@ -19,22 +19,12 @@ from .sums import join_channels, measured_pieces, sum_blocks
 
 @dataclass(frozen=True, eq=False)
 class Newcomer:
-    """A material beside those of a library, on the library's grid.
-
-    Raises
-    ------
-    AnisotropyError
-        When it depends on phi_h and they do not.
-    """
+    """A material beside those of a library, on the library's grid."""
 
     library: Library
     brdf: Brdf
     name: str = "the material"
     work: Work = HERE
-
-    def __post_init__(self) -> None:
-        if self.library.grid.is_isotropic:
-            require_isotropic(self.brdf, "its table", name=self.name)
 
     @property
     def alone(self) -> Library:

@@ -20,12 +20,11 @@ from ..batch import Batch, Checksum
 from ..brdf import TabularBrdf, half_scale
 from ..errors import OutputError
 from ..files import replacing
-from ..formats import merl_bytes, write_brdf
+from ..formats import merl_bytes, write_brdf, zarr_tables
 from ..library import Library, is_stored
 from ..locations import Location, absolute, name_in
 from ..recipes import Mixer, Recipe
 from ..tasks import HERE, Work
-from . import zarr_tables
 
 FORMATS = ("none", "merl", "bsdf", "zarr")
 BSDF_BYTES = 18_000_000

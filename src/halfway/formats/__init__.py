@@ -1,5 +1,6 @@
 """File formats of BRDFs. A file is what its first bytes say, whatever its name."""
 
+from . import zarr_tables
 from .content import merl_bytes
 from .find import Skipped, SourceBrdf, find_brdfs, read_brdf, read_nbrdf_archive
 from .merl import MerlFile, encode_header, read_merl, write_merl, write_samples
@@ -10,6 +11,7 @@ from .rgl_writer import write_rgl
 from .sources import UNREADABLE
 from .spectra import WAVELENGTHS, smooth_primaries
 from .write import write_brdf
+from .zarr_tables import ZarrStore, is_zarr, write_zarr
 
 __all__ = [
     "UNREADABLE",
@@ -19,8 +21,10 @@ __all__ = [
     "RglBrdf",
     "Skipped",
     "SourceBrdf",
+    "ZarrStore",
     "encode_header",
     "find_brdfs",
+    "is_zarr",
     "merl_bytes",
     "read_brdf",
     "read_merl",
@@ -32,4 +36,6 @@ __all__ = [
     "write_merl",
     "write_rgl",
     "write_samples",
+    "write_zarr",
+    "zarr_tables",
 ]

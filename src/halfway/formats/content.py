@@ -4,6 +4,8 @@ import math
 import struct
 from itertools import product
 
+import numpy as np
+
 HEAD_BYTES = 512
 """How many first bytes tell what a file is."""
 
@@ -17,6 +19,9 @@ _ORDERS = {"little-endian": MERL_HEADER, "big-endian": struct.Struct(">3i")}
 _SAMPLE_BYTES = {"float64": 8, "float32": 4}
 LARGEST_AXIS = 1 << 16
 """Cells along one axis of a MERL table, at most, unless the file's size agrees. Four letters of text are more."""
+
+CSAIL_HEADER = struct.Struct("<16i")
+UTIA_BYTES = 3 * 8 * (6 * 48) ** 2
 
 _KNOWN = {
     HDF5: "is an HDF5 file",
@@ -32,14 +37,20 @@ _KNOWN = {
 
 
 def kind(head: bytes, n_bytes: int) -> str | None:
-    """What a file with these first bytes claims to be: ``"merl"``, ``"nbrdf"``, ``"rgl"``, ``"zip"``, or None of these."""
+    """What a file with these first bytes claims to be: ``"merl"``, ``"nbrdf"``, ``"rgl"``, ``"csail"``,
+    ``"utia"``, ``"zip"``, or None of these.
+    """
     if head.startswith(HDF5):
         return "nbrdf"
     if head.startswith(TENSOR_FILE):
         return "rgl"
     if head.startswith(ZIP):
         return "zip"
-    return "merl" if _like_merl(head, n_bytes) else None
+    if _like_csail(head):
+        return "csail"
+    if _like_merl(head, n_bytes):
+        return "merl"
+    return "utia" if n_bytes == UTIA_BYTES and _like_reflectances(head) else None
 
 
 def description(head: bytes) -> str | None:
@@ -73,6 +84,21 @@ def _like_merl(head: bytes, n_bytes: int) -> bool:
     # A header of small numbers is taken for a MERL table even where it is wrong, so that the reader can say what is.
     small = all(abs(n) <= LARGEST_AXIS for n in MERL_HEADER.unpack_from(head))
     return small or merl_like(head, n_bytes) is not None
+
+
+def _like_csail(head: bytes) -> bool:
+    """A header that a MERL table cannot have: where its samples are, there are flags, and the number of channels."""
+    if len(head) < CSAIL_HEADER.size:
+        return False
+    numbers = CSAIL_HEADER.unpack_from(head)
+    sizes, kind, bins, half, channels = numbers[:4], *(numbers[i] for i in (6, 7, 9, 10))
+    return all(0 < n <= LARGEST_AXIS for n in sizes) and (kind, bins, channels) == (1, 0, 3) and half in (0, 1)  # fmt: skip
+
+
+def _like_reflectances(head: bytes) -> bool:
+    """Float64 numbers of a size that a BRDF may have."""
+    numbers = np.abs(np.frombuffer(head[: len(head) // 8 * 8], "<f8"))
+    return bool(((numbers == 0) | ((numbers > 1e-9) & (numbers < 1e6))).all())
 
 
 def _is_text(head: bytes) -> bool:

@@ -14,17 +14,20 @@ from ..locations import BUILTIN_PREFIX
 from ..models import ModelSet, builtin
 from ..origin import Origin
 from .content import HEAD_BYTES, description, kind
+from .goniometric import read_csail_source, read_utia_source
 from .merl import read_merl_source, table_grid
 from .nbrdf import ARCHIVE, NeuralBrdf, read_nbrdf_source, require_small
 from .rgl_reader import material_name, read_rgl_source
 from .sources import FileSource, MemberSource, Source, by_name, members
+from .zarr_tables import ZarrStore, is_zarr
 
 LARGEST_MEMBER = 100_000_000
 """Bytes of a zip's member that are read whatever it takes in the zip; a table of the MERL database has 35 million."""
 MAX_RATIO = 100
 """Bytes of a larger member for each that it takes in the zip, at most."""
 
-_EXPECTED = "expected a MERL table, a neural BRDF (.h5) or an RGL material (.bsdf)"
+_EXPECTED = "expected a MERL table, a neural BRDF (.h5), an RGL material (.bsdf), a UTIA (.bin) or MIT CSAIL table, or a Zarr store"
+_BRDFS = ("merl", "nbrdf", "rgl", "utia", "csail")
 
 
 @dataclass(frozen=True)
@@ -80,14 +83,23 @@ class Skipped:
 
 
 def read_brdf(path: str | Path) -> Brdf:
-    """The BRDF in a file, whatever its suffix: a MERL table, a neural BRDF or an RGL material.
+    """The BRDF in a file, whatever its suffix: a MERL, UTIA or MIT CSAIL table, a neural BRDF, an RGL material, or
+    a Zarr store of one table.
 
     Raises
     ------
     FormatError
         When it is none, or is damaged.
     """
-    return _inspect(FileSource(Path(path))).load()
+    path = Path(path)
+    if not is_zarr(path):
+        return _inspect(FileSource(path)).load()
+    store = ZarrStore.open(path)
+    if len(store.names) > 1:
+        raise FormatError(
+            f"{path.name} holds {len(store.names)} tables: expected one. `halfway library build {path} -o NAME.brdflib` takes all."
+        )
+    return store.read(0)
 
 
 def find_brdfs(
@@ -145,8 +157,12 @@ def _items(source: str | Path, skip_damaged: bool) -> Iterator[SourceBrdf | Skip
         yield from _built_in(str(source).removeprefix(BUILTIN_PREFIX))
         return
     path = Path(source)
+    if is_zarr(path):
+        yield from _tables(path)
+        return
     if path.is_dir():
-        yield from map(_file, _files(path))
+        for each in _files(path):
+            yield from _among_others(each)
         return
     file = FileSource(path)
     try:
@@ -182,13 +198,38 @@ def _fingerprint(model: Brdf) -> str:
     return sha256(model.fingerprint()).hexdigest()
 
 
+def _tables(path: Path) -> Iterator[SourceBrdf]:
+    """Those of a Zarr store."""
+    store = ZarrStore.open(path)
+    for i, name in enumerate(store.names):
+        load, checksum = partial(store.read, i), partial(_chunk_checksum, store, i)
+        yield SourceBrdf(name, str(path), store.grid, Origin(), load, checksum)
+
+
+def _chunk_checksum(store: ZarrStore, i: int) -> str:
+    return store.chunk(i).sha256()
+
+
 def _files(folder: Path) -> list[Path]:
-    files = (Path(parent, name) for parent, _, names in os.walk(folder) for name in names)
-    return sorted(files, key=by_name)
+    """The files in a folder and its subfolders; a Zarr store is one."""
+    found: list[Path] = []
+    for parent, folders, names in os.walk(folder):
+        if is_zarr(Path(parent)):
+            folders.clear()
+            found.append(Path(parent))
+        else:
+            found += [Path(parent, name) for name in names]
+    return sorted(found, key=by_name)
 
 
-def _file(path: Path) -> SourceBrdf | Skipped:
-    return _examine(str(path), path.name, lambda: FileSource(path))
+def _among_others(path: Path) -> Iterator[SourceBrdf | Skipped]:
+    if not is_zarr(path):
+        yield _examine(str(path), path.name, lambda: FileSource(path))
+        return
+    try:
+        yield from _tables(path)
+    except FormatError as error:
+        yield Skipped.because(error, str(path), damaged=False)
 
 
 def _member(member: MemberSource) -> SourceBrdf | Skipped:
@@ -205,7 +246,7 @@ def _examine(location: str, label: str, open_source: Callable[[], Source]) -> So
         claimed = _kind(source)
         return _inspect(source)
     except FormatError as error:
-        return Skipped.because(error, location, damaged=claimed in ("merl", "nbrdf", "rgl"))
+        return Skipped.because(error, location, damaged=claimed in _BRDFS)
 
 
 def _inspect(source: Source) -> SourceBrdf:
@@ -230,6 +271,10 @@ def _inspect(source: Source) -> SourceBrdf:
             return _found(source, None, read_nbrdf_source, origin=origin)
         case "rgl":
             return _found(source, None, read_rgl_source, name=material_name(source.label))
+        case "utia":
+            return _found(source, None, read_utia_source, usual_grid=Grid.anisotropic())
+        case "csail":
+            return _found(source, None, read_csail_source, usual_grid=Grid.anisotropic())
         case "zip":
             raise FormatError(f"{source.label} is a zip: expected one BRDF. Name it as a source.")
         case _:
@@ -257,7 +302,7 @@ def _found(
     *,
     name: str = "",
     origin: Origin = Origin(),  # noqa: B008 (frozen)
+    usual_grid: Grid = MERL,
 ) -> SourceBrdf:
-    return SourceBrdf(
-        name or source.name, source.location, grid, origin, partial(read, source), source.sha256
-    )
+    name, load = name or source.name, partial(read, source)
+    return SourceBrdf(name, source.location, grid, origin, load, source.sha256, usual_grid)

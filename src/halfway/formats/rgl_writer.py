@@ -9,21 +9,26 @@ so ``rgb = f_r cos(theta_o) 4 sigma(i) / D(m)`` at the half vector of each node 
 continues the nearest value, so that interpolation up to the edge stays clean. `luminance` steers the readers' importance
 sampling: what is reflected per area of s, nearly 0 below the horizon.
 
+An anisotropic material takes fixed directions at several azimuths. One that looks the same after half a turn needs half of them,
+and one that is its own mirror image as well a quarter: the readers fold the rest into
+
+    phi_i   [-pi, pi], [-pi, 0] or [-pi, -pi/2]
+
 Source: J. Dupuy, W. Jakob, "An Adaptive Parameterization for Efficient Material Acquisition and Rendering", ACM TOG
 37(6), 2018, section 4; the readers (Mitsuba's `measured`, pbrt-v4's `MeasuredBxDF`) for what a file must hold.
 """
 
 from dataclasses import dataclass
+from itertools import product
 from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 
 from .._types import Directions
-from ..brdf import Brdf, Quality, lit_sphere, quality, require_isotropic
+from ..brdf import Brdf, Quality, lit_sphere, quadrature, quality
 from ..colour import LUMINANCE
-from ..halfdiff import reflect
-from .rgl import RglBrdf
+from ..halfdiff import from_half_diff, reflect, turn
 from .rgl_normals import Normals
 from .rgl_reader import from_fields
 from .rgl_warp import Interpolant, Warp, slices
@@ -37,6 +42,12 @@ _LEAST_LIGHT = (
 )
 
 
+N_PHI_I = 4
+"""Intervals of phi_i in each quarter of a turn: what is left beside D changes slowly."""
+_MIRROR = np.array([1.0, -1.0, 1.0])
+_ALIKE = 1e-3  # of the mean: two materials that differ by less are one
+
+
 class Resolution(NamedTuple):
     """How finely a file samples a material."""
 
@@ -47,7 +58,7 @@ class Resolution(NamedTuple):
 
 
 RESOLUTIONS = tuple(Resolution(n, 2 * n) for n in (16, 32, 48, 64))
-"""0.5, 2.6, 8 and 18 MB; four to six times as much with spectra."""
+"""0.5, 2.6, 8 and 18 MB, five to seventeen times as much for an anisotropic material; and four to six times with spectra."""
 
 MIN_PSNR = 50.0
 
@@ -77,7 +88,7 @@ def write_rgl(
     path : path
         Mitsuba and pbrt take any name.
     brdf : Brdf
-        Isotropic, or an anisotropic `RglBrdf`, which is averaged over phi_h.
+        Isotropic or not.
     spectral : bool
         False: ``rgb``, for Mitsuba's rgb variants. True: ``spectra`` and ``wavelengths`` (smooth upsampling, see
         `spectra.smooth_primaries`), for pbrt-v4 and Mitsuba's spectral variants. No reader takes both in one file.
@@ -90,16 +101,11 @@ def write_rgl(
 
     Raises
     ------
-    AnisotropyError
-        When another BRDF depends on phi_h.
     OutputError
         When the file cannot be written.
     """
     path = Path(path)
     description = description or str(getattr(brdf, "name", ""))
-    if isinstance(brdf, RglBrdf) and not brdf.is_isotropic:
-        brdf = brdf.turned_mean()
-    require_isotropic(brdf, "a .bsdf file of one phi_i")
     expected = lit_sphere(brdf)
     normals = Normals.of(brdf)
     fields, used, reached = {}, RESOLUTIONS[0], Quality(0.0, 1.0)
@@ -115,47 +121,76 @@ def write_rgl(
 def _fields(
     brdf: Brdf, normals: Normals, resolution: Resolution, description: str
 ) -> dict[str, np.ndarray]:
-    theta_i = np.linspace(0, np.pi / 2, resolution.n_theta_i)
-    vndf = normals.visible(theta_i)
-    warp = Warp.of(vndf)
+    theta_i, phi_i = np.linspace(0, np.pi / 2, resolution.n_theta_i), _azimuths(brdf)
+    vndf = np.stack([normals.visible(theta_i, phi) for phi in phi_i])
+    warp = Warp.of(vndf.reshape(-1, *vndf.shape[2:]))
     parts = [
-        _slice(brdf, normals, warp, i, min(t, _GRAZING), resolution.size)
-        for i, t in enumerate(theta_i)
+        _slice(brdf, normals, warp, i, (min(theta, _GRAZING), phi), resolution.size)
+        for i, (phi, theta) in enumerate(product(phi_i, theta_i))
     ]
-    rgb, luminance = (np.stack(part).astype(np.float32) for part in zip(*parts, strict=True))
+    rgb, luminance = (
+        np.stack(part).astype(np.float32).reshape(*vndf.shape[:2], *part[0].shape)
+        for part in zip(*parts, strict=True)
+    )
     return {
         "description": np.frombuffer(description.encode() or b" ", np.uint8),
-        "phi_i": np.zeros(1, np.float32),
+        "phi_i": phi_i.astype(np.float32),
         "theta_i": theta_i.astype(np.float32),
-        # Isotropic: the same in both rows of phi.
-        "ndf": np.tile(normals.density.astype(np.float32), (2, 1)),
-        "sigma": np.tile(normals.area.astype(np.float32), (2, 1)),
-        "vndf": vndf[None],
-        "luminance": luminance[None],
-        "rgb": np.moveaxis(rgb, -1, 1)[None],
+        "ndf": normals.density.astype(np.float32),
+        "sigma": normals.area.astype(np.float32),
+        "vndf": vndf,
+        "luminance": luminance,
+        "rgb": np.ascontiguousarray(np.moveaxis(rgb, -1, 2)),
         "jacobian": np.ones(1, np.uint8),
     }
 
 
+def _azimuths(brdf: Brdf) -> np.ndarray:
+    """phi_i of the fixed directions: one for an isotropic material."""
+    if brdf.is_isotropic:
+        return np.zeros(1)
+    n_parts = _n_parts(brdf)
+    return np.linspace(-np.pi, 2 * np.pi / n_parts - np.pi, 4 * N_PHI_I // n_parts + 1)
+
+
+def _n_parts(brdf: Brdf) -> int:
+    """Into how many parts of a turn, each like the first, the readers can fold an anisotropic material: 1, 2 or 4."""
+    angles = quadrature.spread_angles(1000)
+    wi, wo = from_half_diff(angles._replace(phi_h=np.arange(1000) * 2.4))  # about the golden angle
+    exchanged = np.maximum(wi[:, 2:] * wo[:, 2:], 0)
+    values, turned, mirrored = (
+        np.nan_to_num(brdf.eval(*pair)) * exchanged
+        for pair in ((wi, wo), (turn(wi, np.pi), turn(wo, np.pi)), (wi * _MIRROR, wo * _MIRROR))
+    )
+    alike = [np.abs(other - values).sum() <= _ALIKE * values.sum() for other in (turned, mirrored)]
+    return 4 if all(alike) else 2 if alike[0] else 1
+
+
 def _slice(
-    brdf: Brdf, normals: Normals, warp: Warp, i_slice: int, theta_i: float, size: int
+    brdf: Brdf, normals: Normals, warp: Warp, i_slice: int, of: tuple[float, float], size: int
 ) -> tuple[np.ndarray, np.ndarray]:
-    """``rgb``, shape (size, size, 3), and ``luminance``, shape (size, size), seen from one fixed direction."""
+    """``rgb``, shape (size, size, 3), and ``luminance``, shape (size, size), seen from one fixed direction, (theta_i, phi_i)."""
     side = np.linspace(0, 1, size)
     s_phi, s_theta = (s.ravel() for s in np.meshgrid(side, side, indexing="ij"))
     u_theta, u_phi = warp.sample(s_theta, s_phi, i_slice)
-    i = np.array([np.sin(theta_i), 0.0, np.cos(theta_i)])
+    theta_i, phi_i = of
+    i = _direction(np.array(theta_i), np.array(phi_i))
     m = _direction(np.pi / 2 * u_theta**2, np.pi * (2 * u_phi - 1))
     o = reflect(i, m, m @ i)
     values = brdf.eval(o, np.broadcast_to(i, o.shape))
     known = (o[:, 2] > _LEAST_COSINE) & (m @ i > 0) & np.isfinite(values).all(axis=1)
-    scale = o[:, 2] * 4 * normals.area_at(theta_i) / normals.density_at(u_theta)
+    scale = o[:, 2] * 4 * normals.area_at(theta_i, phi_i) / normals.density_at(u_theta, u_phi)
     rgb = np.where(known[:, None], np.maximum(values, 0) * scale[:, None], 0)
     rgb = _continued(rgb.reshape(size, size, 3), known.reshape(size, size))
     crowding = Interpolant(warp.density[i_slice, ..., None][None]).at(
         u_theta, u_phi, slices((), ())
     )
-    area = normals.density_at(u_theta) * np.maximum(m @ i, 0) * u_theta * np.hypot(m[:, 0], m[:, 1])
+    area = (
+        normals.density_at(u_theta, u_phi)
+        * np.maximum(m @ i, 0)
+        * u_theta
+        * np.hypot(m[:, 0], m[:, 1])
+    )
     area = np.divide(area, crowding[:, 0], out=np.zeros_like(area), where=crowding[:, 0] > 0)
     # f_r cos(theta_o) times the area of directions that a piece of the unit square stands for
     light = np.where(o[:, 2] > 0, area, 0).reshape(size, size) * (rgb @ LUMINANCE)

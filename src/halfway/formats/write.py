@@ -6,12 +6,14 @@ from ..brdf import TabularBrdf
 from ..files import suffix_of
 from .merl import write_merl
 from .rgl_writer import write_rgl
+from .zarr_tables import write_zarr
 
-WRITERS = {".binary": write_merl, ".bsdf": write_rgl}
+WRITERS = {".binary": write_merl, ".bsdf": write_rgl, ".zarr": write_zarr}
 
 
 def write_brdf(path: str | Path, table: TabularBrdf) -> None:
-    """Write ``table`` to ``path``: ``.binary`` is a MERL file, ``.bsdf`` an RGL file (see `write_rgl`).
+    """Write ``table`` to ``path``: ``.binary`` is a MERL file, ``.bsdf`` an RGL file (see `write_rgl`), ``.zarr`` a Zarr
+    store of the table as it is.
 
     Raises
     ------

@@ -34,7 +34,6 @@ _METALS: dict[str, tuple[Colour, Colour]] = {
     "steel": ((2.88, 2.95, 2.59), (3.05, 2.93, 2.77)),  # iron
     "titanium": ((2.67, 2.54, 2.27), (3.72, 3.43, 3.04)),
 }
-"""n and k."""
 _BRUSHED = {
     "brushed-steel": (0.08, 0.35),
     "hairline-steel": (0.05, 0.20),
@@ -103,6 +102,11 @@ def anisotropic() -> ModelSet:
     )
 
 
+def refractive_index(metal: str) -> tuple[Colour, Colour]:
+    """N and k of a metal, red, green and blue."""
+    return _METALS[metal]
+
+
 def _brushed(
     metal: str, alpha_x: float, alpha_y: float, share: Colour = (1.0, 1.0, 1.0)
 ) -> AnisotropicModel:
@@ -126,7 +130,7 @@ def _plastic(alpha_x: float, alpha_y: float, body: Colour, n: float = 1.5) -> An
 def _cloths() -> dict[str, AnisotropicModel]:
     purple, amber, blue = (0.30, 0.06, 0.34), (0.62, 0.40, 0.07), (0.05, 0.10, 0.45)
     white, black, flax = (0.72, 0.70, 0.66), (0.015, 0.015, 0.018), (0.52, 0.43, 0.31)
-    red, green, indigo = (0.60, 0.05, 0.06), (0.05, 0.32, 0.10), (0.05, 0.08, 0.20)
+    red, green, indigo = (0.60, 0.05, 0.06), (0.05, 0.32, 0.10), (0.025, 0.05, 0.14)
     return {
         # Satin shows one set of threads, taffeta both; shot cloth has them in two colours.
         "satin-purple": _cloth(_SILK, (purple, purple), 0.85),
@@ -136,7 +140,7 @@ def _cloths() -> dict[str, AnisotropicModel]:
         "taffeta-blue": _cloth(_SILK, (blue, blue), 0.5, along=0.10),
         "shot-silk": _cloth(_SILK, (red, green), 0.5),
         "linen": _cloth(_LINEN, (flax, flax), 0.5, along=0.35, across=0.8),
-        "denim": _cloth(_LINEN, (indigo, white), 0.7, along=0.30, across=0.8, twist=20.0),
+        "denim": _cloth(_LINEN, (indigo, white), 0.9, along=0.30, across=0.8, twist=20.0),
     }
 
 

@@ -38,11 +38,6 @@ def distances(library: Library | str, *, work: Work = HERE) -> Float64[np.ndarra
     """How different people would find each two materials of a library; 0 on the diagonal, symmetric.
 
     The unit is that of the fit: answers turn where one distance is twice another.
-
-    Raises
-    ------
-    AnisotropyError
-        When its materials depend on phi_h.
     """
     opened = open_library(library) if isinstance(library, str) else library
     of = features(opened, work=work)

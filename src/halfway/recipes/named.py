@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..brdf import Brdf, TabularBrdf, directional_albedo, own_grid, tabulate
+from ..errors import RecipeError
 from ..halfdiff import Grid
 from ..library import Library
 from .mixing import Mixer
@@ -38,6 +39,19 @@ class NamedBrdf(NamedTuple):
         load = partial(Mixer(library).mix, recipe)
         return cls(label, load, made_of(library, recipe), label, library, recipe)
 
+    def scaled(self, factor: float) -> "NamedBrdf":
+        """The material with its values times a number.
+
+        Raises
+        ------
+        RecipeError
+            When the number is not positive.
+        """
+        if not (factor > 0 and np.isfinite(factor)):
+            raise RecipeError(f"a scale of {factor:g} is none: expected a positive number.")
+        load, of = partial(_scaled, self.load, factor), {"scaled": factor, "of": self.of}
+        return NamedBrdf(self.label, load, of, self.stem)
+
     def table(self, grid: Grid | None = None) -> TabularBrdf:
         """The material on a grid: this one, or its own, or the usual one where it has none."""
         brdf = self.load()
@@ -56,6 +70,10 @@ class NamedBrdf(NamedTuple):
                 brdf, ALBEDO_ANGLE, n_theta_h=90, n_phi_h=24
             ).tolist(),
         }
+
+
+def _scaled(load: Callable[[], Brdf], factor: float) -> Brdf:
+    return load().scaled(factor)
 
 
 def made_of(library: Library, recipe: Recipe) -> Any:

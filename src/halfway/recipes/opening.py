@@ -21,7 +21,7 @@ from typing import Any
 
 from ..brdf import TabularBrdf
 from ..errors import RecipeError
-from ..formats import read_brdf
+from ..formats import ZarrStore, is_zarr, read_brdf
 from ..halfdiff import common_grid
 from ..library import DEFAULT_LIBRARY, Library, LibraryRef, Origin, ProceduralLibrary, open_library
 from ..locations import PERMUTED_PREFIX, Location, RemotePath, to_location
@@ -30,7 +30,7 @@ from .mixing import Mixer
 from .named import NamedBrdf, made_of
 from .recipe import Recipe
 
-FILES = (".binary", ".bsdf", ".h5")
+FILES = (".binary", ".bsdf", ".h5", ".bin", ".zarr")
 """Suffixes that nobody means a material's name by."""
 LIBRARIES = (".brdflib", ".brdfc", ".zip")
 
@@ -122,6 +122,8 @@ def _materials(word: str, elsewhere: str) -> Iterator[NamedBrdf]:
         raise RecipeError(
             f"{path} is no library and no route: expected one of these at a URL. Copy the file here first."
         )
+    elif isinstance(path, Path) and is_zarr(path):
+        yield from _store(path)
     elif isinstance(path, Path) and path.is_dir():
         yield from _folder(path)
     elif _json_file(word)[0]:
@@ -146,6 +148,14 @@ def _file(path: Path) -> NamedBrdf:
     status = path.stat()
     of = {"file": str(path), "bytes": status.st_size, "modified": status.st_mtime_ns}
     return NamedBrdf(path.stem, partial(read_brdf, path), of, path.stem)
+
+
+def _store(path: Path) -> Iterator[NamedBrdf]:
+    """The tables of a Zarr store."""
+    store = ZarrStore.open(path)
+    for i, name in enumerate(store.names):
+        of = {"file": str(path), "table": i, "modified": store.chunk(i).path.stat().st_mtime_ns}
+        yield NamedBrdf(name, partial(store.read, i), of, name)
 
 
 def _folder(folder: Path) -> Iterator[NamedBrdf]:
