@@ -121,7 +121,9 @@ def write_zarr(path: str | Path, table: TabularBrdf) -> None:
         raise OutputError(f"{path} exists and is no Zarr store: it is not replaced.")
     with scratch_folder(path) as folder:
         names = [table.name or path.stem]
-        (folder / DOCUMENT).write_text(metadata(1, table.grid, 1.0, names=names, samples="float32"))
+        (folder / DOCUMENT).write_text(
+            metadata(1, table.grid, 1.0, names=names, samples="float32"), encoding="utf-8"
+        )
         chunk = gzip.compress(table.values.astype("<f4").data, compresslevel=1, mtime=0)
         (folder / chunk_name(0, table.grid)).write_bytes(chunk)
         if path.exists():
