@@ -19,12 +19,13 @@ from halfway.fit import Fit, Gltf, OpenPbr, Principled
 from halfway.fit.model import AnalyticModel
 
 BYTES = {5126: 4, 5123: 2}
-COMPONENTS = {"SCALAR": 1, "VEC3": 3}
-# Of each extension, the factors and what they may be: KHR_materials_ior, _specular, _clearcoat.
+COMPONENTS = {"SCALAR": 1, "VEC3": 3, "VEC4": 4}
+# Of each extension, the factors and what they may be: KHR_materials_ior, _specular, _clearcoat, _anisotropy.
 EXTENSIONS = {
     "KHR_materials_ior": {"ior"},
     "KHR_materials_specular": {"specularFactor", "specularColorFactor"},
     "KHR_materials_clearcoat": {"clearcoatFactor", "clearcoatRoughnessFactor"},
+    "KHR_materials_anisotropy": {"anisotropyStrength", "anisotropyRotation"},
 }
 
 
@@ -36,6 +37,13 @@ PLAIN = Gltf(np.array([0.8, 0.4, 0.2]), metallic=0.3, roughness=0.4)
 RICH = Gltf(
     np.array([0.8, 0.4, 0.2]), 0.1, 0.5, 1.7, 0.9, np.array([1, 0.5, 0.25]), 0.6, 0.125
 )  # fmt: skip
+BRUSHED = Gltf(
+    np.array([0.8, 0.4, 0.2]),
+    metallic=1.0,
+    roughness=0.3,
+    anisotropy_strength=0.5,
+    anisotropy_rotation=1.25,
+)
 OPENPBR = OpenPbr(
     np.array([0.12345, 0.5, 0.25]), 0.3, 0.25, np.array([1, 0.9, 0.8]), 0.33333, 1.75, 0.5, 0.25
 )  # fmt: skip
@@ -53,12 +61,34 @@ def test_a_materialx_document_is_valid_and_holds_the_fit(model, node, tmp_path):
     document.setDataLibrary(library)
     assert document.validate() == (True, "")
     (surface,) = document.getNodes(node)
-    for name, value in model.parameters().items():
+    parameters = model.parameters()
+    parameters.pop("tangent_rotation", None)
+    for name, value in parameters.items():
         written = surface.getInputValue(name)
         assert_allclose(written.asTuple() if isinstance(value, list) else written, value, rtol=1e-6)
     (material,) = document.getMaterialNodes()
     assert material.getConnectedNode("surfaceshader").getName() == surface.getName()
     assert "40.0 dB" in material.getDocString()
+
+
+def test_a_turned_tangent_is_a_node_of_its_own(tmp_path):
+    """Turned as MaterialX's own graph turns that of glTF: less than 0 is counter-clockwise."""
+    mx: Any = import_module("MaterialX")
+    turned = OpenPbr(
+        np.array([0.5, 0.4, 0.3]),
+        base_metalness=1.0,
+        specular_roughness_anisotropy=0.5,
+        tangent_rotation=np.pi / 6,
+    )
+    write_fit(tmp_path / "a.mtlx", a_fit(turned))
+    document = mx.createDocument()
+    mx.readFromXmlFile(document, str(tmp_path / "a.mtlx"))
+    (surface,) = document.getNodes("open_pbr_surface")
+    node = surface.getConnectedNode("geometry_tangent")
+    assert node.getCategory() == "rotate3d"
+    assert_allclose(node.getInputValue("amount"), -30, rtol=1e-6)
+    sources = [node.getConnectedNode(port).getCategory() for port in ("in", "axis")]
+    assert sources == ["tangent", "normal"]
 
 
 NAMES = ["gold-paint", "my_gold", "001", "3M tape (v2)", "0_5", "-1", "金属", "銀", "é", "e\u0301", "", "_", "__", "a b", "a.b", "a:b", "a/b", "class",
@@ -90,7 +120,7 @@ def test_names_that_look_alike_stay_apart():
     assert [identifier(name) for name in ("gold-paint", "my_gold", "001")] == ["gold_paint", "my_gold", "_001"]  # fmt: skip
 
 
-@pytest.mark.parametrize("model", [PLAIN, RICH], ids=["plain", "rich"])
+@pytest.mark.parametrize("model", [PLAIN, RICH, BRUSHED], ids=["plain", "rich", "brushed"])
 def test_a_gltf_keeps_the_rules_of_the_specification(model):
     document = json.loads(to_gltf(a_fit(model)))
     (buffer,) = document["buffers"]
@@ -99,7 +129,7 @@ def test_a_gltf_keeps_the_rules_of_the_specification(model):
     require_valid(document, base64.b64decode(data))
 
 
-@pytest.mark.parametrize("model", [PLAIN, RICH], ids=["plain", "rich"])
+@pytest.mark.parametrize("model", [PLAIN, RICH, BRUSHED], ids=["plain", "rich", "brushed"])
 def test_a_glb_is_the_same_in_a_binary_container(model):
     data = to_glb(a_fit(model))
     magic, version, n_bytes = struct.unpack_from("<4sII", data)
@@ -125,7 +155,13 @@ def require_valid(document: dict[str, Any], data: bytes) -> None:
         if "min" in accessor:
             assert_allclose(array.min(axis=0), accessor["min"])
             assert_allclose(array.max(axis=0), accessor["max"])
-    indices, positions = arrays
+    indices, positions, *tangents = arrays
+    for t in tangents:
+        assert_allclose(np.linalg.norm(t[:, :3], axis=1), 1, atol=1e-6)
+        assert_allclose(np.einsum("nk,nk->n", t[:, :3], positions), 0, atol=1e-6)
+        assert_allclose(t[:, 1], 0)  # level
+        assert (t[:, 3] == 1).all()
+    assert bool(tangents) == ("KHR_materials_anisotropy" in document["extensionsUsed"])
     assert indices.max() < len(positions) < 65535
     assert_allclose(np.linalg.norm(positions, axis=1), 1, atol=1e-6)  # they are the normals too
     a, b, c = positions[indices.reshape(-1, 3)].transpose(1, 0, 2)

@@ -11,13 +11,14 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 from strategies import directions
 
-from halfway.brdf import IsotropicModel, TabularBrdf, directional_albedo, tabulate
+from halfway.brdf import IsotropicModel, TabularBrdf, directional_albedo, quadrature, tabulate
 from halfway.brdf.quality import Quality
 from halfway.errors import FormatError, HalfwayError
 from halfway.fit import MODELS, Fit, Gltf, OpenPbr, Principled, fit
 from halfway.fit.metric import comparison_pairs
+from halfway.fit.microfacet import Azimuths, Widths, ggx
 from halfway.fit.openpbr import eon
-from halfway.halfdiff import Grid
+from halfway.halfdiff import Grid, turn
 from halfway.models import builtin
 
 GRID = Grid.merl(90, 30, 36)
@@ -36,6 +37,7 @@ KNOWN = {
     "cloth": Principled([0.5, 0.2, 0.1], roughness=0.9, sheen=0.5, flatness=0.6),
     "lacquer": Principled([0.4, 0.1, 0.1], roughness=0.6, clearcoat=0.9, clearcoat_gloss=0.6),
     "tinted": Principled([0.6, 0.3, 0.1], metallic=0.3, spec_tint=0.7, sheen=0.4, sheen_tint=0.8),
+    "brushed": Principled([0.9, 0.7, 0.3], roughness=0.4, metallic=1.0, anisotropic=0.7),
     "no index": Principled([0.9, 0.5, 0.2], roughness=0.3, metallic=0.5, specular=0.0),
 }
 
@@ -64,6 +66,18 @@ def test_principled_is_mitsubas(name):
 def gltf_by_the_book(model: Gltf, wi, wo) -> np.ndarray:
     """Appendix B.3 of glTF 2.0 and the extensions, one pair at a time, in their own symbols."""
 
+    def stretched_brdf():
+        c, s = np.cos(model.anisotropy_rotation), np.sin(model.anisotropy_rotation)
+        t, b = np.array([c, s, 0]), np.array([-s, c, 0])
+        ab = model.roughness**2
+        at = ab + (1 - ab) * model.anisotropy_strength**2
+        a2 = at * ab
+        f = np.array([ab * (t @ H), at * (b @ H), a2 * NdotH])
+        D = a2 * (a2 / (f @ f)) ** 2 / np.pi
+        ggxv = NdotL * np.linalg.norm([at * (t @ wo), ab * (b @ wo), NdotV])
+        ggxl = NdotV * np.linalg.norm([at * (t @ wi), ab * (b @ wi), NdotL])
+        return D * 0.5 / (ggxv + ggxl)
+
     def specular_brdf(alpha):
         chi = 1.0 if NdotH > 0 else 0.0
         D = alpha**2 * chi / (np.pi * (NdotH**2 * (alpha**2 - 1) + 1) ** 2)
@@ -73,7 +87,7 @@ def gltf_by_the_book(model: Gltf, wi, wo) -> np.ndarray:
     H = (wi + wo) / np.linalg.norm(wi + wo)
     NdotL, NdotV, NdotH, VdotH = wi[2], wo[2], H[2], float(wo @ H)
     fresnel_w = (1 - VdotH) ** 5
-    specular = specular_brdf(model.roughness**2)
+    specular = stretched_brdf() if model.anisotropy_strength else specular_brdf(model.roughness**2)
     f0 = np.minimum(((1 - model.ior) / (1 + model.ior)) ** 2 * model.specular_color, 1.0)
     dielectric_fresnel = model.specular * (f0 + (1 - f0) * fresnel_w)
     diffuse = model.base_color / np.pi
@@ -87,7 +101,9 @@ def gltf_by_the_book(model: Gltf, wi, wo) -> np.ndarray:
 @given(directions(85.0), directions(85.0), st.integers(0, 2**32 - 1))
 def test_gltf_is_the_specifications(wi, wo, seed):
     low, high = Gltf.bounds()
-    model = Gltf.from_vector(low + (high - low) * np.random.default_rng(seed).uniform(0.1, 1, 12))
+    model = Gltf.from_vector(
+        low + (high - low) * np.random.default_rng(seed).uniform(0.1, 1, len(low))
+    )
     assert_allclose(model.eval(wi, wo), gltf_by_the_book(model, wi, wo), rtol=1e-7)
 
 
@@ -142,6 +158,73 @@ def test_a_table_of_a_model_gives_the_model_back(truth):
     assert found.albedo_error < 0.03
 
 
+BRUSHED = [
+    Principled([0.9, 0.7, 0.3], roughness=0.4, metallic=1.0, anisotropic=0.8, tangent_rotation=0.6),
+    OpenPbr(
+        [0.9, 0.6, 0.4],
+        base_metalness=1.0,
+        specular_roughness=0.4,
+        specular_roughness_anisotropy=0.7,
+        tangent_rotation=2.2,
+    ),
+    Gltf(
+        [0.9, 0.6, 0.4],
+        metallic=1.0,
+        roughness=0.3,
+        anisotropy_strength=0.5,
+        anisotropy_rotation=1.0,
+    ),
+]
+BRUSHED_GRID = Grid.anisotropic(48, 36, 12, 24, period=np.pi)
+
+
+@pytest.mark.parametrize("truth", BRUSHED, ids=lambda m: type(m).__name__)
+def test_a_table_of_an_anisotropic_model_gives_its_anisotropy_and_rotation_back(truth):
+    (name,) = (name for name, kind in MODELS.items() if isinstance(truth, kind))
+    found = fit(tabulate(truth, BRUSHED_GRID), name).model
+    how_much, where = ((getattr(model, grain) for model in (found, truth)) for grain in truth.grain)
+    # What is left is the grid's: theta_d in steps of seven and a half degrees, phi_h in steps of five.
+    assert_allclose(*how_much, atol=0.02)
+    assert_allclose(*where, atol=0.02)
+
+
+@pytest.mark.parametrize("name", ["openpbr", "gltf"])
+def test_other_models_find_the_direction(name):
+    truth = BRUSHED[0]
+    found = fit(truth, name)
+    assert found.picture.psnr > 32
+    direction, expected = (getattr(model, model.grain[1]) for model in (found.model, truth))
+    assert_allclose(direction, expected, atol=0.03)
+
+
+def test_an_isotropic_table_that_is_lifted_is_fitted_as_none_that_is_anisotropic():
+    plastic = KNOWN["plastic"]
+    found = fit(tabulate(plastic, Grid.anisotropic(48, 4, 12, 24)), "principled").model
+    assert found.anisotropic < 0.05
+    assert_allclose(found.roughness, plastic.roughness, atol=0.02)
+    assert fit(tabulate(plastic, GRID), "principled").model.is_isotropic
+
+
+@pytest.mark.parametrize("model", BRUSHED, ids=lambda m: type(m).__name__)
+@given(directions(85.0), directions(85.0))
+def test_turning_a_model_turns_light_and_viewer_with_it(model, wi, wo):
+    straight = replace(model, **{model.grain[1]: 0.0})
+    angle = getattr(model, model.grain[1])
+    expected = straight.eval(turn(wi, -angle), turn(wo, -angle))
+    assert_allclose(model.eval(wi, wo), expected, rtol=1e-9)
+
+
+@pytest.mark.parametrize("widths", [(0.3, 0.3), (0.5, 0.1), (0.05, 0.3)])
+def test_all_normals_of_a_stretched_lobe_cover_the_surface_once(widths):
+    """The integral of D cos(theta_h) over half vectors is 1."""
+    nodes, solid_angles = quadrature.hemisphere(400, 360)
+    zero = np.zeros(len(nodes))
+    azimuths = Azimuths(np.arctan2(nodes[:, 1], nodes[:, 0]), zero, zero)
+    lobe = Widths.along(*widths, 0.4, azimuths)
+    density = lobe.density * ggx(np.arccos(nodes[:, 2]), lobe.h)
+    assert_allclose((density * nodes[:, 2] * solid_angles).sum(), 1, rtol=1e-3)
+
+
 @pytest.mark.parametrize("model", MODELS)
 @pytest.mark.parametrize("name", ["chrome", "white-diffuse-bball"])
 def test_a_fit_reflects_no_more_than_it_receives_and_stays_in_bounds(name, model):
@@ -173,7 +256,9 @@ def test_what_no_model_has_is_fitted_badly_and_said_so(model, least):
 def test_what_other_programs_make_of_gltf(wi, wo, seed):
     """Without extensions the index is 1.5 and there is no coat; in Blender the edge is white, so what specular takes from f0 stays there."""
     low, high = Gltf.bounds()
-    model = Gltf.from_vector(low + (high - low) * np.random.default_rng(seed).uniform(0.1, 1, 12))
+    model = Gltf.from_vector(
+        low + (high - low) * np.random.default_rng(seed).uniform(0.1, 1, len(low))
+    )
     core, blender = (model.readings[name] for name in ("without extensions", "in Blender"))
     assert_allclose(core.eval(wi, wo), gltf_by_the_book(Gltf(model.base_color, model.metallic, model.roughness, clearcoat_roughness=0.1), wi, wo))  # fmt: skip
     plain = replace(model, specular=1.0)

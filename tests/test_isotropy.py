@@ -1,12 +1,9 @@
-"""What depends on phi_h says so, and is refused wherever one azimuth would stand for all."""
+"""What depends on phi_h says so."""
 
 import numpy as np
-import pytest
 from numpy.testing import assert_allclose
 
 from halfway import Grid, TabularBrdf, directional_albedo
-from halfway.errors import AnisotropyError
-from halfway.fit import fit
 from halfway.halfdiff import Axis, from_half_diff
 from halfway.library import Library, ProceduralLibrary
 
@@ -44,15 +41,6 @@ def test_a_turned_table_reflects_otherwise():
         directional_albedo(table.eval, np.radians(60)) for table in (brushed(), turned(brushed()))
     )
     assert np.abs(along / across - 1).min() > 0.1
-
-
-def test_a_fit_refuses():
-    with pytest.raises(AnisotropyError) as raised:
-        fit(brushed(), name="brushed")
-    said = str(raised.value)
-    assert "depends on phi_h (it is anisotropic)" in said
-    assert ": its fit is worked out for isotropic materials only." in said
-    assert "\n" not in said
 
 
 def test_they_are_stored_and_come_back():

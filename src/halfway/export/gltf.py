@@ -4,7 +4,7 @@
     .glb     the same in a binary container:  "glTF", version 2, length;  then chunks of (length, type, data), padded to 4 bytes
 
 Nothing lies beside the file. An extension is used where its parameters do something: KHR_materials_ior, KHR_materials_specular,
-KHR_materials_clearcoat for the material; KHR_lights_punctual for the lights, whose unit is the lux. What a viewer without an exposure
+KHR_materials_clearcoat, KHR_materials_anisotropy for the material, whose sphere has tangents then, level around the vertical; KHR_lights_punctual for the lights, whose unit is the lux. What a viewer without an exposure
 shows as well lit is some lux; Blender takes that for moonlight (divided by 683 lm/W), unless it imports "Unitless".
 
 Source: Khronos Group, glTF 2.0 specification, sections 3 (concepts), 4 (GLB), 5 (properties), and the extensions named above.
@@ -33,7 +33,7 @@ VERTICES, INDICES = 34962, 34963
 
 def to_gltf(fit: Fit) -> bytes:
     """The asset as JSON, UTF-8, the mesh inside."""
-    buffer = base64.b64encode(_sphere().data).decode()
+    buffer = base64.b64encode(_sphere_of(fit).data).decode()
     document = _document(fit, {"uri": f"data:application/octet-stream;base64,{buffer}"})
     return json.dumps(document, indent=1).encode()
 
@@ -45,7 +45,7 @@ def to_glb(fit: Fit) -> bytes:
         struct.pack("<I4s", len(data), kind) + data
         for kind, data in (
             (b"JSON", _padded(text, b" ")),
-            (b"BIN\0", _padded(_sphere().data, b"\0")),
+            (b"BIN\0", _padded(_sphere_of(fit).data, b"\0")),
         )
     )
     return struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks
@@ -75,18 +75,30 @@ def to_material(model: Gltf, name: str) -> dict[str, Any]:
                 "clearcoatRoughnessFactor": model.clearcoat_roughness,
             },
         ),
+        "KHR_materials_anisotropy": (
+            not model.is_isotropic,
+            {
+                "anisotropyStrength": model.anisotropy_strength,
+                "anisotropyRotation": model.anisotropy_rotation,
+            },
+        ),
     }
     used = {name: values for name, (matters, values) in extensions.items() if matters}
     return {**material, "extensions": used} if used else material
 
 
 class Mesh(NamedTuple):
-    """A sphere of radius 1: 16-bit indices, then positions, which are the normals too."""
+    """A sphere of radius 1: 16-bit indices, then positions, which are the normals too; then tangents, if it has them."""
 
     data: bytes
     n_indices: int
     n_vertices: int
     n_index_bytes: int
+    n_position_bytes: int
+
+    @property
+    def has_tangents(self) -> bool:
+        return len(self.data) > self.n_index_bytes + self.n_position_bytes
 
 
 def _document(fit: Fit, buffer: dict[str, Any]) -> dict[str, Any]:
@@ -94,7 +106,7 @@ def _document(fit: Fit, buffer: dict[str, Any]) -> dict[str, Any]:
         raise OutputError(
             f"glTF has no material for the model {fit.model_name}: expected gltf. Fit it with --model gltf."
         )
-    mesh = _sphere()
+    mesh = _sphere_of(fit)
     material = to_material(fit.model, fit.name)
     camera = {"yfov": _FIELD_OF_VIEW, "znear": 0.1, "zfar": 100.0, "aspectRatio": 1.0}
     lights = [{"type": "directional", "intensity": intensity} for _, intensity in _LIGHTS]
@@ -118,6 +130,26 @@ def _document(fit: Fit, buffer: dict[str, Any]) -> dict[str, Any]:
 
 def _geometry(mesh: Mesh) -> dict[str, Any]:
     """The sphere as glTF says where it is in the buffer."""
+    geometry = _without_tangents(mesh)
+    if mesh.has_tangents:
+        start = mesh.n_index_bytes + mesh.n_position_bytes
+        (shape,) = geometry["meshes"]
+        shape["primitives"][0]["attributes"]["TANGENT"] = 2
+        geometry["accessors"].append(
+            {"bufferView": 2, "componentType": FLOAT, "count": mesh.n_vertices, "type": "VEC4"}
+        )
+        geometry["bufferViews"].append(
+            {
+                "buffer": 0,
+                "byteOffset": start,
+                "byteLength": len(mesh.data) - start,
+                "target": VERTICES,
+            }
+        )
+    return geometry
+
+
+def _without_tangents(mesh: Mesh) -> dict[str, Any]:
     return {
         "meshes": [
             {
@@ -148,15 +180,19 @@ def _geometry(mesh: Mesh) -> dict[str, Any]:
             {
                 "buffer": 0,
                 "byteOffset": mesh.n_index_bytes,
-                "byteLength": len(mesh.data) - mesh.n_index_bytes,
+                "byteLength": mesh.n_position_bytes,
                 "target": VERTICES,
             },
         ],
     }
 
 
+def _sphere_of(fit: Fit) -> Mesh:
+    return _sphere(with_tangents=not fit.model.is_isotropic)
+
+
 @cache
-def _sphere() -> Mesh:
+def _sphere(*, with_tangents: bool) -> Mesh:
     ring, segment = (x.ravel() for x in np.mgrid[0 : N_RINGS + 1, 0 : N_SEGMENTS + 1])
     theta, phi = np.pi * ring / N_RINGS, 2 * np.pi * segment / N_SEGMENTS
     sin = np.where(ring % N_RINGS, np.sin(theta), 0)
@@ -168,8 +204,14 @@ def _sphere() -> Mesh:
     upper = np.stack([corner, below, corner + 1], axis=-1)[N_SEGMENTS:]
     lower = np.stack([corner + 1, below, below + 1], axis=-1)[:-N_SEGMENTS]
     indices = np.concatenate([upper, lower]).astype("<u2")
+    tangents = np.stack([np.cos(phi), 0 * phi, -np.sin(phi), np.ones_like(phi)], axis=-1)
+    data = indices.tobytes() + positions.tobytes()
     return Mesh(
-        indices.tobytes() + positions.tobytes(), indices.size, len(positions), indices.nbytes
+        data + tangents.astype("<f4").tobytes() if with_tangents else data,
+        indices.size,
+        len(positions),
+        indices.nbytes,
+        positions.nbytes,
     )
 
 

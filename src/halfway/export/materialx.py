@@ -4,11 +4,15 @@ OpenPBR goes to the node ``open_pbr_surface``, glTF's model to ``gltf_pbr``; par
 Colours are linear with the primaries of sRGB (``lin_rec709``). Every document is validated by the MaterialX library against its
 own node definitions before it is given out.
 
+A tangent that is turned is OpenPBR's own input, of a node that turns it: ``rotate3d``, which takes degrees the other way around, as
+MaterialX's own graph of ``gltf_pbr`` has it.
+
 Names are USD identifiers as well, since each becomes the name of a prim: `identifier`. The true one stands in ``uiname`` and ``doc``.
 
 Source: MaterialX specification 1.39, Academy Software Foundation.
 """
 
+import math
 import re
 from functools import cache
 from hashlib import sha256
@@ -40,7 +44,10 @@ def to_materialx(fit: Fit) -> str:
     document.setColorSpace("lin_rec709")
     name = identifier(fit.name or "material")
     surface = document.addNode(NODES[fit.model_name], f"{name}_surface", "surfaceshader")
-    for parameter, value in fit.model.parameters().items():
+    parameters = fit.model.parameters()
+    if turn := parameters.pop("tangent_rotation", 0.0):
+        surface.setConnectedNode("geometry_tangent", _turned_tangent(document, name, turn))
+    for parameter, value in parameters.items():
         colour = isinstance(value, list)
         surface.setInputValue(
             parameter, mx.Color3(*value) if colour else value, "color3" if colour else "float"
@@ -57,6 +64,17 @@ def to_materialx(fit: Fit) -> str:
 def printable(name: str) -> str:
     """A name as documents may hold it: what cannot be printed is replaced."""
     return "".join(c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in name)
+
+
+def _turned_tangent(document: Any, name: str, radians: float) -> Any:
+    """The node of the tangent, turned counter-clockwise about the normal."""
+    turned = document.addNode("rotate3d", f"{name}_tangent", "vector3")
+    turned.setInputValue("amount", -math.degrees(radians), "float")
+    for port, kind in (("in", "tangent"), ("axis", "normal")):
+        source = document.addNode(kind, f"{name}_{kind}_of_mesh", "vector3")
+        source.setInputValue("space", "world", "string")
+        turned.setConnectedNode(port, source)
+    return turned
 
 
 def identifier(name: str) -> str:

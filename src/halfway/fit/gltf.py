@@ -1,4 +1,4 @@
-"""The material of glTF 2.0: metallic-roughness, with index, specular and clearcoat.
+"""The material of glTF 2.0: metallic-roughness, with index, specular, clearcoat and anisotropy.
 
     base        mix(dielectric, metal; metallic)
     dielectric  (1 - w max_channel F) base_color/pi + w F V D,      F = f0 + (1 - f0) S, f0 = min(1, specular_color f0(ior))
@@ -7,13 +7,15 @@
 
     V D = D(a) G1(cos_i) G1(cos_o) / (4 cos_i cos_o),   a = roughness^2,    S = (1 - cos theta_d)^5,    w = specular
 
+An anisotropic base is wider along the tangent, a_t = a + (1 - a) strength^2; its G is height-correlated, as that extension has it.
+
 Programs do not agree on it. Many leave the extensions out, and Blender lets ``specular`` scale f0 and not the whole of F. A fit keeps an eye
 on what these make of the material: `Gltf.readings`.
 
 The base is reciprocal. The coat takes its share of what ``wo`` sees, as the extension says; that is not.
 
 Source: Khronos Group, glTF 2.0 specification, appendix B; KHR_materials_ior, KHR_materials_specular,
-KHR_materials_clearcoat, the sections "Implementation".
+KHR_materials_clearcoat, KHR_materials_anisotropy, the sections "Implementation".
 """
 
 from collections.abc import Mapping, Sequence
@@ -23,8 +25,8 @@ from typing import Any, ClassVar
 import numpy as np
 
 from .._types import Angle
-from .microfacet import f0_of_ior, ggx, schlick, smith
-from .model import ROUGHNESSES, AnalyticModel, Colour, Range, channels
+from .microfacet import Azimuths, Widths, f0_of_ior, ggx, schlick, smith, smith_correlated
+from .model import ANY_TURN, ROUGHNESSES, AnalyticModel, Colour, Range, channels
 
 LEAST_WIDTH = 1e-6
 COAT_F0 = 0.04
@@ -42,6 +44,8 @@ class Gltf(AnalyticModel):
     specular_color: Any = 1.0
     clearcoat: float = 0.0
     clearcoat_roughness: float = 0.0
+    anisotropy_strength: float = 0.0
+    anisotropy_rotation: float = 0.0
 
     formula: ClassVar[str] = "glTF 2.0 metallic-roughness"
     colours: ClassVar[frozenset[str]] = frozenset({"base_color", "specular_color"})
@@ -54,7 +58,10 @@ class Gltf(AnalyticModel):
         "specular_color": Range(0, 1, 1),
         "clearcoat": Range(0, 1, 0),
         "clearcoat_roughness": Range(0.02, 1, 0.1),
+        "anisotropy_strength": Range(0, 1, 0),
+        "anisotropy_rotation": ANY_TURN,
     }
+    grain: ClassVar = "anisotropy_strength", "anisotropy_rotation"
 
     n_searches: ClassVar[int] = 4
     simpler: ClassVar = (
@@ -79,11 +86,17 @@ class Gltf(AnalyticModel):
         }
 
     def at(
-        self, theta_h: Angle, theta_d: Angle, phi_d: Angle, cos_i: Angle, cos_o: Angle
+        self,
+        theta_h: Angle,
+        theta_d: Angle,
+        phi_d: Angle,
+        cos_i: Angle,
+        cos_o: Angle,
+        azimuths: Azimuths | None = None,
     ) -> np.ndarray:
         del phi_d  # it acts through the two cosines
         white = schlick(np.cos(theta_d))
-        lobe = _lobe(theta_h, cos_i, cos_o, self.roughness)
+        lobe = self._base(theta_h, cos_i, cos_o, azimuths)
         colour = channels(self.base_color, lobe)
         f0 = np.minimum(1, channels(self.specular_color, lobe) * f0_of_ior(self.ior))
         F = self._fresnel(f0, white)
@@ -95,6 +108,15 @@ class Gltf(AnalyticModel):
         coat = _lobe(theta_h, cos_i, cos_o, self.clearcoat_roughness)
         share = self.clearcoat * (COAT_F0 + (1 - COAT_F0) * schlick(cos_o))
         return f + share * (coat - f)
+
+    def _base(self, theta_h: Angle, cos_i: Angle, cos_o: Angle, azimuths: Azimuths | None) -> Angle:
+        if azimuths is None:
+            return _lobe(theta_h, cos_i, cos_o, self.roughness)
+        a_b = max(LEAST_WIDTH, self.roughness**2)
+        a_t = a_b + (1 - a_b) * self.anisotropy_strength**2
+        a = Widths.along(a_t, a_b, self.anisotropy_rotation, azimuths)
+        G = smith_correlated(cos_i, cos_o, a.i, a.o) / (4 * cos_i * cos_o)
+        return a.density * ggx(theta_h, a.h) * G
 
     def _fresnel(self, f0: np.ndarray, white: Angle) -> np.ndarray:
         return self.specular * (f0 + (1 - f0) * white)
@@ -126,14 +148,16 @@ class GltfBlender(Gltf):
 
 
 class PreviewSurface(Gltf):
-    """``UsdPreviewSurface`` in its metallic workflow: glTF's model with an index and a clearcoat, without tints of the gloss.
+    """``UsdPreviewSurface`` in its metallic workflow: glTF's model with an index and a clearcoat, without tints of the gloss, and isotropic.
 
     Source: Pixar, UsdPreviewSurface Specification 2.6.
     """
 
     formula = "UsdPreviewSurface"
     ranges: ClassVar = {
-        name: r for name, r in Gltf.ranges.items() if not name.startswith("specular")
+        name: r
+        for name, r in Gltf.ranges.items()
+        if not name.startswith(("specular", "anisotropy"))
     }
     simpler: ClassVar = ()
     readings: ClassVar = {}

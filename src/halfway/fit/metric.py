@@ -1,7 +1,8 @@
 """The metric in which models are fitted.
 
 A surface is seen from five angles theta_o, and half vectors stand on a grid over the hemisphere, close together near the
-normal. Each half vector h says where the light is, wi = 2 (wo.h) h - wo.
+normal. Each half vector h says where the light is, wi = 2 (wo.h) h - wo. An anisotropic surface is turned as well, so that all half
+vectors together are close in phi_h too.
 
     d^2 = sum_j w_j (m(pi f_j cos_i) - m(pi g_j cos_i))^2  +  sum_k v_k (a_k^(1/3) - b_k^(1/3))^2
 
@@ -21,15 +22,18 @@ import numpy as np
 from jaxtyping import Bool, Float64
 
 from .._types import Directions
-from ..brdf import Brdf, quadrature, require_isotropic
+from ..brdf import Brdf, quadrature
 from ..errors import FormatError
 from ..halfdiff import HalfDiff, to_half_diff
+from .microfacet import Azimuths
 from .model import AnalyticModel, Colour, Vector
 
 VIEWS_DEGREES = (10.0, 30.0, 50.0, 65.0, 77.0)
 GRAZING_DEGREES = 85.0
 """No light comes from beyond."""
 N_THETA_H, N_PHI_H = 28, 12
+N_AZIMUTHS = 7
+"""Of each view of an anisotropic surface: no divisor of the half vectors' number, so that no two of them are at one phi_h."""
 BODY_DEGREES = 35.0
 """Beyond, highlights are over."""
 
@@ -44,6 +48,7 @@ class Pairs(NamedTuple):
     wi: Directions
     wo: Directions
     angles: HalfDiff
+    azimuths: Azimuths
     weight: Vector
     """The root of w_j, and sums of squares to 1."""
     reflected: Float64[np.ndarray, "n_views n"]
@@ -52,8 +57,9 @@ class Pairs(NamedTuple):
 
     def of(self, model: AnalyticModel) -> Samples:
         """Values of a model, in 1/sr."""
-        angles = self.angles
-        return model.at(angles.theta_h, angles.theta_d, angles.phi_d, self.wi[:, 2], self.wo[:, 2])
+        theta_h, _, theta_d, phi_d = self.angles
+        azimuths = None if model.is_isotropic else self.azimuths
+        return model.at(theta_h, theta_d, phi_d, self.wi[:, 2], self.wo[:, 2], azimuths)
 
 
 class Target(NamedTuple):
@@ -64,6 +70,7 @@ class Target(NamedTuple):
     """Pairs at which all channels are measured."""
     samples: Samples
     seen: Terms
+    is_isotropic: bool
 
     @classmethod
     def of(cls, brdf: Brdf, name: str) -> "Target":
@@ -71,13 +78,10 @@ class Target(NamedTuple):
 
         Raises
         ------
-        AnisotropyError
-            When it depends on phi_h.
         FormatError
             When the material is measured nowhere the metric looks.
         """
-        require_isotropic(brdf, "its fit", name=name)
-        pairs = comparison_pairs()
+        pairs = comparison_pairs(1 if brdf.is_isotropic else N_AZIMUTHS)
         samples = brdf.eval(pairs.wi, pairs.wo).T
         known = np.asarray(np.isfinite(samples).all(axis=0))
         if not known.any():
@@ -86,7 +90,7 @@ class Target(NamedTuple):
                 "looks at: expected a table of a whole material. `halfway check` says what is in it."
             )
         samples = np.where(known, np.maximum(samples, 0), 0)
-        return cls(pairs, known, samples, _seen(pairs, samples))
+        return cls(pairs, known, samples, _seen(pairs, samples), brdf.is_isotropic)
 
     def difference(self, model: AnalyticModel) -> tuple[Terms, np.ndarray]:
         """The terms of d, of which d is the norm; and by how much each albedo is above 1."""
@@ -102,16 +106,26 @@ class Target(NamedTuple):
 
     def albedo(self) -> Colour:
         """The whole albedo, seen from 30 degrees."""
-        return (self.samples @ self.pairs.reflected.T)[:, 1]
+        views = np.array_split(self.samples @ self.pairs.reflected.T, len(VIEWS_DEGREES), axis=1)
+        return views[1].mean(axis=1)
+
+    def widest(self) -> float:
+        """The direction along the surface in which the highlight is widest: that of the second moments of its half vectors."""
+        light = self.samples.mean(axis=0) * self.pairs.wi[:, 2] * self.pairs.weight**2
+        # Of a tensor along phi, the sum of exp(2 i phi) is at twice the angle of its longer axis.
+        moment = np.sin(self.pairs.angles.theta_h) ** 2 * np.exp(2j * self.pairs.azimuths.h)
+        return float(np.angle((light * moment).sum()) / 2)
 
 
 @cache
-def comparison_pairs() -> Pairs:
-    """The pairs of directions and their weights."""
-    theta_o, least_cosine = np.radians(VIEWS_DEGREES), np.cos(np.radians(GRAZING_DEGREES))
+def comparison_pairs(n_azimuths: int = 1) -> Pairs:
+    """The pairs of directions and their weights, from so many azimuths of each view."""
+    least_cosine = np.cos(np.radians(GRAZING_DEGREES))
+    theta_o = np.repeat(np.radians(VIEWS_DEGREES), n_azimuths)
+    phi_o = 2 * np.pi * np.tile(np.arange(n_azimuths) / n_azimuths, len(VIEWS_DEGREES))
     views = [
-        quadrature.HalfVectors.at(theta, N_THETA_H, N_PHI_H, least_cosine=least_cosine)
-        for theta in theta_o
+        quadrature.HalfVectors.at(theta, N_THETA_H, N_PHI_H, least_cosine=least_cosine).turned(phi)
+        for theta, phi in zip(theta_o, phi_o, strict=True)
     ]
     view = np.repeat(np.arange(len(views)), [len(rule.dh) for rule in views])
     h, wo, wi, cos_d, dh = (np.concatenate(part) for part in zip(*views, strict=True))
@@ -119,10 +133,12 @@ def comparison_pairs() -> Pairs:
     weight = shares[view] * cos_d * dh / np.sqrt(np.hypot(h[:, 0], h[:, 1]))
     reflected = np.zeros((len(views), len(view)))
     reflected[view, np.arange(len(view))] = np.concatenate([rule.weights for rule in views])
+    angles = to_half_diff(wi, wo)
     return Pairs(
         wi,
         wo,
-        to_half_diff(wi, wo),
+        angles,
+        Azimuths.of(angles.phi_h, wi, wo),
         np.sqrt(weight / weight.sum()),
         reflected,
         np.sqrt(shares / shares.sum()),

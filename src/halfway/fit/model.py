@@ -10,8 +10,10 @@ from typing import Any, ClassVar, NamedTuple
 import numpy as np
 from jaxtyping import Float64
 
-from .._types import Angle
-from ..brdf import IsotropicModel
+from .._types import Angle, Directions, Part, Table, Values
+from ..brdf import Brdf, IsotropicModel
+from ..halfdiff import Grid, to_half_diff
+from .microfacet import Azimuths
 
 Vector = Float64[np.ndarray, " n"]
 Colour = Float64[np.ndarray, "3"]
@@ -30,6 +32,10 @@ class Range(NamedTuple):
     neutral: float
 
 
+ANY_TURN = Range(-np.pi, np.pi, 0)
+"""Of a direction along the surface, in radians, counter-clockwise from the tangent; half a turn is none."""
+
+
 class AnalyticModel(IsotropicModel):
     """A model of renderers: a frozen dataclass of numbers and colours (shape (3,), linear RGB)."""
 
@@ -37,6 +43,8 @@ class AnalyticModel(IsotropicModel):
     """Of each parameter, in the order of the fields; a colour's range is that of each channel."""
     colours: ClassVar[frozenset[str]]
     """The parameters of three channels."""
+    grain: ClassVar[tuple[str, str]]
+    """The parameters that say how anisotropic it is, 0 for not, and in which direction its main lobe is widest."""
     n_searches: ClassVar[int] = 2
     """From how many of the starts to search."""
     simpler: ClassVar[Sequence[Mapping[str, float]]] = ()
@@ -51,6 +59,38 @@ class AnalyticModel(IsotropicModel):
     def readings(self) -> Mapping[str, "AnalyticModel"]:
         """What programs make of the parameters that do not take all of them as they are meant, by which programs those are."""
         return {}
+
+    @property
+    def is_isotropic(self) -> bool:
+        return getattr(self, self.grain[0]) == 0
+
+    @abstractmethod
+    def at(
+        self,
+        theta_h: Angle,
+        theta_d: Angle,
+        phi_d: Angle,
+        cos_i: Angle,
+        cos_o: Angle,
+        azimuths: Azimuths | None = None,
+    ) -> np.ndarray:
+        """f_r in 1/sr, shape (3, ...), of arrays that broadcast together; azimuths only where it is anisotropic."""
+
+    def eval(self, wi: Directions, wo: Directions) -> Values:
+        if self.is_isotropic:
+            return super().eval(wi, wo)
+        wi, wo = np.broadcast_arrays(wi, wo)
+        lit = (wi[..., 2] > 0) & (wo[..., 2] > 0)
+        wi, wo = wi[lit], wo[lit]
+        theta_h, phi_h, theta_d, phi_d = to_half_diff(wi, wo)
+        azimuths = Azimuths.of(phi_h, wi, wo)
+        values = np.zeros((*lit.shape, 3))
+        values[lit] = self.at(theta_h, theta_d, phi_d, wi[:, 2], wo[:, 2], azimuths).T
+        return values
+
+    def _sample_rows(self, grid: Grid, rows: Part) -> Table:
+        kind = IsotropicModel if self.is_isotropic else Brdf
+        return kind._sample_rows(self, grid, rows)
 
     def __post_init__(self) -> None:
         for name in self.colours:

@@ -8,6 +8,8 @@ A layer takes from what is below it its own albedo E seen from ``wo``. That is O
 energy and not the reciprocity, by some percent where the two directions differ much.
 
     metal, gloss, coat   F D(a) G / (4 cos_i cos_o) (1 + F (1 - E(1))/E(1)), a = roughness^2, G height-correlated
+                         metal and gloss anisotropic in D: a_t = a sqrt(2 / (1 + (1 - A)^2)), a_b = (1 - A) a_t, G and E at the
+                         geometric mean of both
                          F: exact for a dielectric; for the metal S(base_color) bent to meet specular_color at 82 degrees
     diffuse              the energy-preserving Oren-Nayar model ("EON")
     fuzz                 a linearly transformed cosine
@@ -22,6 +24,7 @@ Fresnel Model", 2023; EON: J. Portsmouth, P. Kutz, S. Hill, JCGT 14(1), 2025; fu
 E. Turquin, "Practical Multiple Scattering Compensation for Microfacet Models", 2019.
 """
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar, NamedTuple
@@ -30,8 +33,8 @@ import numpy as np
 
 from .._types import Angle
 from ..brdf import fresnel
-from .microfacet import f0_of_ior, ggx, schlick, smith_correlated
-from .model import ROUGHNESSES, AnalyticModel, Colour, Range, channels
+from .microfacet import Azimuths, Widths, f0_of_ior, ggx, schlick, smith_correlated
+from .model import ANY_TURN, ROUGHNESSES, AnalyticModel, Colour, Range, channels
 
 COAT_IOR = 1.6
 LEAST_WIDTH = 1e-6
@@ -46,11 +49,12 @@ class Pair(NamedTuple):
     cos_d: Angle
     cos_i: Angle
     cos_o: Angle
+    azimuths: Azimuths | None
 
 
 @dataclass(frozen=True, eq=False)
 class OpenPbr(AnalyticModel):
-    """The parameters of OpenPBR that stand for an opaque isotropic table, under their names there."""
+    """The parameters of OpenPBR that stand for an opaque table, under their names there; and where its tangent points."""
 
     base_color: Any
     base_diffuse_roughness: float = 0.0
@@ -63,6 +67,8 @@ class OpenPbr(AnalyticModel):
     fuzz_weight: float = 0.0
     fuzz_color: Any = 1.0
     fuzz_roughness: float = 0.5
+    specular_roughness_anisotropy: float = 0.0
+    tangent_rotation: float = 0.0
 
     formula: ClassVar[str] = "OpenPBR 1.1"
     colours: ClassVar[frozenset[str]] = frozenset({"base_color", "specular_color", "fuzz_color"})
@@ -78,7 +84,10 @@ class OpenPbr(AnalyticModel):
         "fuzz_weight": Range(0, 1, 0),
         "fuzz_color": Range(0, 1, 1),
         "fuzz_roughness": Range(0.1, 1, 0.5),
+        "specular_roughness_anisotropy": Range(0, 0.95, 0),
+        "tangent_rotation": ANY_TURN,
     }
+    grain: ClassVar = "specular_roughness_anisotropy", "tangent_rotation"
 
     @classmethod
     def starts(cls, body: Colour, glossy: Colour) -> Sequence["OpenPbr"]:
@@ -98,10 +107,16 @@ class OpenPbr(AnalyticModel):
         ]
 
     def at(
-        self, theta_h: Angle, theta_d: Angle, phi_d: Angle, cos_i: Angle, cos_o: Angle
+        self,
+        theta_h: Angle,
+        theta_d: Angle,
+        phi_d: Angle,
+        cos_i: Angle,
+        cos_o: Angle,
+        azimuths: Azimuths | None = None,
     ) -> np.ndarray:
         del phi_d  # it acts through the two cosines
-        pair = Pair(theta_h, np.cos(theta_d), cos_i, cos_o)
+        pair = Pair(theta_h, np.cos(theta_d), cos_i, cos_o, azimuths)
         cos_between = np.cos(2 * theta_d)
         f = self._base(pair, cos_between)
         if self.coat_weight:
@@ -109,7 +124,11 @@ class OpenPbr(AnalyticModel):
         return self._fuzzed(f, pair, cos_between) if self.fuzz_weight else f
 
     def _base(self, pair: Pair, cos_between: Angle) -> np.ndarray:
-        a, ior = self._under_the_coat()
+        width, ior = self._under_the_coat()
+        across = 1 - self.specular_roughness_anisotropy
+        a_t = width * math.sqrt(2 / (1 + across**2))
+        a_t, a_b = (min(max(LEAST_WIDTH, a), 1.0) for a in (a_t, across * a_t))
+        a = Widths.along(a_t, a_b, self.tangent_rotation, pair.azimuths)
         like = pair.cos_i * pair.cos_o
         colour, tint = channels(self.base_color, like), channels(self.specular_color, like)
         gloss, kept = _gloss(pair, a, ior)
@@ -124,12 +143,13 @@ class OpenPbr(AnalyticModel):
         wider = min(1.0, 2 * self.coat_roughness**4 + r**4) ** 0.25
         ratio = self.specular_ior / COAT_IOR
         ior = self.specular_ior + w * (max(ratio, 1 / ratio) - self.specular_ior)
-        return max(LEAST_WIDTH, (r + w * (wider - r)) ** 2), ior
+        return (r + w * (wider - r)) ** 2, ior
 
     def _coated(self, f: np.ndarray, pair: Pair) -> np.ndarray:
         k = 1 - (1 - f0_of_ior(COAT_IOR)) / COAT_IOR**2
         darker = (1 - k) / (1 - k * channels(self.base_color, pair.cos_i * pair.cos_o))
-        gloss, kept = _gloss(pair, max(LEAST_WIDTH, self.coat_roughness**2), COAT_IOR)
+        width = Widths.even(max(LEAST_WIDTH, self.coat_roughness**2))
+        gloss, kept = _gloss(pair, width, COAT_IOR)
         w = self.coat_weight
         return w * gloss + (1 - w * (1 - kept)) * (1 + w * (darker - 1)) * f
 
@@ -141,16 +161,16 @@ class OpenPbr(AnalyticModel):
         return w * channels(self.fuzz_color, lobe) * lobe + (1 - w * albedo) * f
 
 
-def _gloss(pair: Pair, a: float, ior: float) -> tuple[Angle, Angle]:
+def _gloss(pair: Pair, a: Widths, ior: float) -> tuple[Angle, Angle]:
     """The lobe of a dielectric, and what it leaves of the light for what is below it."""
     F = fresnel(pair.cos_d, ior)
-    albedo = ggx_albedo(pair.cos_o, a, f0_of_ior(ior)) * _multiple(pair, a, F)
+    albedo = ggx_albedo(pair.cos_o, a.mean, f0_of_ior(ior)) * _multiple(pair, a.mean, F)
     return _lobe(pair, a, F), 1 - albedo
 
 
-def _lobe(pair: Pair, a: float, F: Angle) -> Angle:
-    G = smith_correlated(pair.cos_i, pair.cos_o, a) / (4 * pair.cos_i * pair.cos_o)
-    return F * (ggx(pair.theta_h, a) * G) * _multiple(pair, a, F)
+def _lobe(pair: Pair, a: Widths, F: Angle) -> Angle:
+    G = smith_correlated(pair.cos_i, pair.cos_o, a.mean, a.mean) / (4 * pair.cos_i * pair.cos_o)
+    return F * (a.density * ggx(pair.theta_h, a.h) * G) * _multiple(pair, a.mean, F)
 
 
 def _multiple(pair: Pair, a: float, F: Angle) -> Angle:

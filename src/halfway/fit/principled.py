@@ -9,13 +9,14 @@
     sheen      (1 - m) s (1 - st + st tint) (1 - cos theta_d)^5
 
 with r roughness, m metallic, t spec_tint, S Schlick's mixture with white, F_eta the exact Fresnel term of the index that
-``specular`` stands for, and tint = base_color over its luminance. ``flatness`` leads the diffuse term over to
+``specular`` stands for, D and G1 of the specular lobe anisotropic, r^2/q along the tangent and r^2 q across it, q^2 = 1 - .9 anisotropic, and tint = base_color over its luminance. ``flatness`` leads the diffuse term over to
 1.25 (L_i L_o (1/(cos_i + cos_o) - 1/2) + 1/2),  L = 1 + (R/2 - 1) S_i, the same for o.
 
 Source: B. Burley, "Physically-Based Shading at Disney", SIGGRAPH course 2012, and "Extending the Disney BRDF to a BSDF
 with Integrated Subsurface Scattering", 2015; what Mitsuba makes of them: the page of its plugin ``principled``.
 """
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar
@@ -24,8 +25,8 @@ import numpy as np
 
 from .._types import Angle
 from ..brdf import fresnel
-from .microfacet import ggx, gtr1, schlick, smith
-from .model import ROUGHNESSES, AnalyticModel, Colour, Range, channels
+from .microfacet import Azimuths, Widths, ggx, gtr1, schlick, smith
+from .model import ANY_TURN, ROUGHNESSES, AnalyticModel, Colour, Range, channels
 
 _LUMINANCE = np.array([0.212671, 0.715160, 0.072169])
 LEAST_WIDTH = 0.001
@@ -34,7 +35,7 @@ LEAST_WIDTH = 0.001
 
 @dataclass(frozen=True, eq=False)
 class Principled(AnalyticModel):
-    """The parameters of Mitsuba's ``principled``, under their names there."""
+    """The parameters of Mitsuba's ``principled``, under their names there; and where its tangent points."""
 
     base_color: Any
     roughness: float = 0.5
@@ -46,6 +47,8 @@ class Principled(AnalyticModel):
     sheen: float = 0.0
     sheen_tint: float = 0.0
     flatness: float = 0.0
+    anisotropic: float = 0.0
+    tangent_rotation: float = 0.0
 
     formula: ClassVar[str] = "Mitsuba principled"
     colours: ClassVar[frozenset[str]] = frozenset({"base_color"})
@@ -60,7 +63,10 @@ class Principled(AnalyticModel):
         "sheen": Range(0, 1, 0),
         "sheen_tint": Range(0, 1, 0),
         "flatness": Range(0, 1, 0),
+        "anisotropic": Range(0, 1, 0),
+        "tangent_rotation": ANY_TURN,
     }
+    grain: ClassVar = "anisotropic", "tangent_rotation"
 
     @classmethod
     def starts(cls, body: Colour, glossy: Colour) -> Sequence["Principled"]:
@@ -72,7 +78,13 @@ class Principled(AnalyticModel):
         ]
 
     def at(
-        self, theta_h: Angle, theta_d: Angle, phi_d: Angle, cos_i: Angle, cos_o: Angle
+        self,
+        theta_h: Angle,
+        theta_d: Angle,
+        phi_d: Angle,
+        cos_i: Angle,
+        cos_o: Angle,
+        azimuths: Azimuths | None = None,
     ) -> np.ndarray:
         del phi_d  # it acts through the two cosines
         cos_d = np.cos(theta_d)
@@ -80,8 +92,11 @@ class Principled(AnalyticModel):
         body = self._diffuse(cos_d, cos_i, cos_o) / np.pi
         colour = channels(self.base_color, body)
         tint = channels(self._tint(), body)
-        a = max(LEAST_WIDTH, self.roughness**2)
-        lobe = ggx(theta_h, a) * smith(cos_i, a) * smith(cos_o, a) / (4 * cos_i * cos_o)
+        aspect = math.sqrt(1 - 0.9 * self.anisotropic)
+        a_t, a_b = (max(LEAST_WIDTH, self.roughness**2 * q) for q in (1 / aspect, aspect))
+        a = Widths.along(a_t, a_b, self.tangent_rotation, azimuths)
+        lobe = ggx(theta_h, a.h) * smith(cos_i, a.i) * smith(cos_o, a.o) / (4 * cos_i * cos_o)
+        lobe = a.density * lobe
         coat = gtr1(theta_h, 0.1 - 0.099 * self.clearcoat_gloss) * smith(cos_i, 0.25)
         coat = self.clearcoat / 4 * (0.04 + 0.96 * white) * coat * smith(cos_o, 0.25)
         sheen = self.sheen * (1 + self.sheen_tint * (tint - 1)) * white

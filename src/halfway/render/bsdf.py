@@ -29,10 +29,10 @@ import drjit as dr
 import mitsuba as mi
 import numpy as np
 
-from ..brdf import TabularBrdf, tabulate
+from ..brdf import TabularBrdf, own_grid, tabulate
 from ..errors import RenderError
 from ..formats import WAVELENGTHS, read_brdf, smooth_primaries
-from ..halfdiff import MERL, Axis, Grid
+from ..halfdiff import Axis, Grid
 from ..library import DEFAULT_LIBRARY, open_library
 from ..recipes import Mixer, Recipe
 from .sampling import HalfVectorSampling, buffer
@@ -252,7 +252,8 @@ def _read(props: Any) -> TabularBrdf:
         file_resolver: Any = mi.file_resolver
         path = Path(str(file_resolver().resolve(props["filename"])))
         brdf = read_brdf(path)
-        return brdf if isinstance(brdf, TabularBrdf) else tabulate(brdf, MERL, name=path.stem)
+        table = isinstance(brdf, TabularBrdf)
+        return brdf if table else tabulate(brdf, own_grid(brdf), name=path.stem)
     raise RenderError(
         "halfway_table has neither a filename, nor a recipe, nor values: expected one of them."
     )

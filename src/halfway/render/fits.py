@@ -1,18 +1,19 @@
 """A fit beside its material, as a picture of two rows: the table, the fit, and the difference.
 
 Above, the lit sphere on which routes are paced, without noise. Below, Mitsuba in the studio: the exact table, and for the model
-``principled`` Mitsuba's own plugin with the fitted parameters; for a model that Mitsuba lacks, the table of the fit. The
+``principled`` Mitsuba's own plugin with the fitted parameters; for a model that Mitsuba lacks, or one whose tangent is turned, the table of the fit. The
 difference is CIEDE2000 of what a display shows, from black (none) to white (`WHITE` and more).
 """
 
 from dataclasses import replace
+from typing import TypeGuard
 
 import numpy as np
 from jaxtyping import UInt8
 
 from ..brdf import TabularBrdf, tabulate
 from ..colour import ciede2000
-from ..fit import Fit, Principled
+from ..fit import AnalyticModel, Fit, Principled
 from ..look import PACING_SCENE, appearance, portrait
 from .denoise import denoiser_available
 from .pictures import sheet
@@ -28,7 +29,7 @@ def fit_sheet(table: TabularBrdf, fit: Fit, *, size: int = 256) -> UInt8[np.ndar
     """The picture, 8-bit, of tiles ``size`` pixels wide."""
     fitted = tabulate(fit.model, table.grid, name=fit.name)
     spheres = [_sphere(brdf, size) for brdf in (table, fitted)]
-    plugin = to_plugin(fit.model) if isinstance(fit.model, Principled) else None
+    plugin = to_plugin(fit.model) if _is_plugin(fit.model) else None
     renderer = Renderer("teapot", size=(size, size), spp=SPP, denoise=denoiser_available())
     scenes = [renderer.picture(worn) for worn in (table, plugin or fitted)]
     difference = f"difference, 0 to {WHITE:g} CIEDE2000"
@@ -41,8 +42,14 @@ def fit_sheet(table: TabularBrdf, fit: Fit, *, size: int = 256) -> UInt8[np.ndar
 def to_plugin(model: Principled) -> Material:
     """The model as Mitsuba's ``principled``, for ``mitsuba.load_dict``."""
     parameters = model.parameters()
+    del parameters["tangent_rotation"]  # Mitsuba's is that of the mesh
     colour = {"type": "rgb", "value": parameters.pop("base_color")}
     return {"type": "principled", "base_color": colour, **parameters}
+
+
+def _is_plugin(model: AnalyticModel) -> TypeGuard[Principled]:
+    """Whether Mitsuba has just this."""
+    return isinstance(model, Principled) and not model.tangent_rotation
 
 
 def _sphere(table: TabularBrdf, size: int) -> np.ndarray:

@@ -52,9 +52,10 @@ class HalfVectorSampling:
         self._steps = np.diff(2 * np.sin(theta_h / 2) ** 2)
         self._drops = buffer(2 * np.sin(theta_h / 2) ** 2)
         self._n_rows, self._n_columns = len(self._steps), self._azimuths.n_columns
-        views = np.meshgrid(self._thetas, self._azimuths.of_views, indexing="ij")
+        of_views = self._azimuths.of_views
+        views = np.repeat(self._thetas, len(of_views)), np.tile(of_views, len(self._thetas))
         azimuths = np.multiply.outer(self._azimuths.sides, self._azimuths.nodes)
-        wi, wo, self._jacobian = _pairs(*(v.ravel() for v in views), theta_h, azimuths)
+        wi, wo, self._jacobian = _pairs(*views, theta_h, azimuths)
         self._wi, self._wo = (mi.Vector3f(*map(buffer, v)) for v in (wi, wo))
         columns = np.full(self._n_columns, self._azimuths.step)
         self._measure = self._jacobian * np.outer(_trapezoid(self._steps), _trapezoid(columns))
