@@ -7,6 +7,7 @@ import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 from strategies import random_tables
 
+import halfway
 from halfway import Grid, TabularBrdf, directional_albedo, mix, open_library, tabulate
 from halfway.brdf import anisotropy, check, fresnel, repair
 from halfway.brdf.albedo_operator import albedos
@@ -179,6 +180,20 @@ def test_a_lifted_library_has_the_same_recipes():
     t = np.linspace(0, 1, 9)
     before, after = (make_space("paper", _abc(grid)).leg(0, 7).at(t) for grid in (FLAT, GRID))
     assert_allclose(after, before, atol=1e-9)
+
+
+def test_a_route_goes_from_brushed_metal_to_paint():
+    """In the default space, blend and pace: each end is its material, and between there is a recipe."""
+    some = ("brushed-steel", "satin-steel", "brushed-gold", "anodised-blue", "satin-purple")
+    few = dict(list(builtin("merl-abc").models.items())[::9])
+    brdfs = {**{name: MODELS[name] for name in some}, **few}
+    library = ProceduralLibrary("both", brdfs, grid=Grid.anisotropic(16, 12, 6, 6, period=np.pi))
+    route = halfway.route(library, "brushed-steel", "alum-bronze")
+    start, stop = route.recipe(0.0), route.recipe(1.0)
+    assert (start.names, stop.names) == (("brushed-steel",), ("alum-bronze",))
+    mixed = mix(library, route.recipe(0.5))
+    assert anisotropy(library.brdf("brushed-steel")) > anisotropy(mixed) > 0.01
+    assert (albedos(mixed, np.radians([0.0, 60.0])) <= 1.01).all()
 
 
 def test_libraries_of_both_kinds_are_built_and_sampled(tmp_path):

@@ -6,7 +6,7 @@ from gonio_files import csail, csail_pairs, utia, utia_directions
 from numpy.testing import assert_allclose
 from typer.testing import CliRunner
 
-from halfway import Grid, tabulate
+from halfway import Grid, mix, tabulate
 from halfway.brdf import Brdf
 from halfway.cli import app
 from halfway.errors import FormatError
@@ -14,6 +14,7 @@ from halfway.formats import ZarrStore, find_brdfs, read_brdf, write_brdf, write_
 from halfway.halfdiff import turn
 from halfway.library import build_library
 from halfway.models.anisotropic import Lobe, Microfacets
+from halfway.recipes import open_recipe
 
 CLOTH = Microfacets((Lobe(0.3, 0.6, (1.5, 1.5, 1.5), turn_degrees=20.0),), (0.4, 0.1, 0.2))
 GRID = Grid.anisotropic(6, 8, 4, 4)
@@ -175,3 +176,13 @@ def test_convert_takes_a_scale(tmp_path):
     assert_allclose(read_brdf(tmp_path / "cloth.zarr").values, plain.values / 2, rtol=1e-6)
     refused = CliRunner().invoke(app, [*words, "--scale", "-1", "--force"])
     assert str(refused.exception) == "a scale of -1 is none: expected a positive number."
+
+
+def test_a_recipe_of_a_measured_cloth_and_a_paint_is_mixed_on_a_grid_with_phi_h(tmp_path):
+    table = tabulate(CLOTH, GRID)
+    write_zarr(tmp_path / "cloth.zarr", table)
+    library, recipe = open_recipe([f"{tmp_path / 'cloth.zarr'}=.25, gold-paint=.75"])
+    assert library.grid == GRID
+    paint = tabulate(library.material("gold-paint"), GRID)
+    mixed = mix(library, recipe)
+    assert_allclose(mixed.values, 0.25 * table.values + 0.75 * paint.values, rtol=1e-5)

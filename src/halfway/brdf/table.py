@@ -102,10 +102,10 @@ class TabularBrdf(Brdf):
     def fingerprint(self) -> bytes:
         return hashlib.sha256(np.ascontiguousarray(self.values).data).digest()
 
-    def scaled(self, factor: float) -> Brdf:
+    def scaled(self, factor: float) -> "TabularBrdf":
         return TabularBrdf(self.values * np.float32(factor), self.grid, name=self.name)
 
-    def turned_mean(self) -> Brdf:
+    def turned_mean(self) -> "TabularBrdf":
         if self.is_isotropic:
             return self
         axis = self.grid.axes.index(self.grid.axis("phi_h"))

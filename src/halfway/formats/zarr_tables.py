@@ -28,7 +28,7 @@ import numpy as np
 from ..brdf import TabularBrdf
 from ..errors import FormatError, OutputError
 from ..files import replacing, scratch_folder
-from ..halfdiff import Axis, Grid
+from ..halfdiff import Axis, Grid, HalfDiff
 from .sources import FileSource
 
 STORE = "tables.zarr"
@@ -203,16 +203,15 @@ def _store(path: Path, document: Any) -> ZarrStore:
     return ZarrStore(path, tuple(names), grid, _SAMPLES[document["data_type"]], scale)
 
 
-def _numbers(path: Path, n: int) -> list[str]:
+def _numbers(path: Path, n: Any) -> list[str]:
     if not (isinstance(n, int) and 0 < n <= MOST_TABLES):
         raise ValueError(f"{n} tables")
     return [f"{path.stem}-{i:03d}" for i in range(n)]
 
 
 def _axis(fields: Any) -> Axis:
-    axis = Axis(**fields)
-    sound = isinstance(axis.size, int) and 0 < axis.size < 1 << 16 and axis.power in (1, 2)
-    known = axis.angle in ("theta_h", "phi_h", "theta_d", "phi_d")
-    if not (sound and known and 0 < float(axis.stop) < 7 and isinstance(axis.periodic, bool)):
+    known = fields["angle"] in HalfDiff._fields and type(fields["periodic"]) is bool
+    sound = type(fields["size"]) is int and 0 < fields["size"] < 1 << 16
+    if not (known and sound and fields["power"] in (1, 2) and 0 < float(fields["stop"]) < 7):
         raise ValueError("an axis that a grid does not have")
-    return axis
+    return Axis(**fields)

@@ -145,10 +145,8 @@ def sky_queries(nodes: SkyNodes) -> Queries:
     rules = [quadrature.HalfVectors.at(theta, *nodes.half_vectors) for theta in nodes.theta_o]
     sizes = np.repeat([len(rule.dh) for rule in rules], m)
     owner = np.repeat(np.arange(nodes.size), sizes)
-    wi, wo, weights = (
-        np.concatenate([part for rule in rules for part in [each(rule)] * m])
-        for each in (lambda r: r.other, lambda r: r.fixed, lambda r: r.weights)
-    )
+    parts = ((rule.other, rule.fixed, rule.weights) for rule in rules for _ in range(m))
+    wi, wo, weights = (np.concatenate(part) for part in zip(*parts, strict=True))
     return Queries(wi, wo, nodes.phi_o[owner % m], owner, weights)
 
 

@@ -159,7 +159,9 @@ def _cloth(
     """
     lobes: list[Lobe] = []
     for dye, share, degrees in zip(dyes, (warp, 1 - warp), (twist, 90 - twist), strict=True):
-        lobes.append(Lobe(along, across, (n, n, n), share=(share,) * 3, turn_degrees=degrees))
+        lobes.append(
+            Lobe(along, across, (n, n, n), share=(share, share, share), turn_degrees=degrees)
+        )
         r, g, b = (float(x) for x in np.multiply(dye, share / 3))
         lobes.append(Lobe(2 * along, across, share=(r, g, b), turn_degrees=degrees))
     r, g, b = (float(x) for x in np.average(dyes, axis=0, weights=(warp, 1 - warp)) * 2 / 3)

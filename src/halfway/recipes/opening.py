@@ -19,7 +19,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from ..brdf import TabularBrdf
+from ..brdf import TabularBrdf, own_grid
 from ..errors import RecipeError
 from ..formats import ZarrStore, is_zarr, read_brdf
 from ..halfdiff import common_grid
