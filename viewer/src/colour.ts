@@ -32,3 +32,17 @@ const CURVE = Uint8ClampedArray.from({ length: STEPS + 1 }, (_, i) => Math.round
 export function toByte(linear: number): number {
   return CURVE[linear >= 1 ? STEPS : linear <= 0 ? 0 : (linear * STEPS + 0.5) | 0]!;
 }
+
+/** CIELAB under D65, of linear RGB (IEC 61966-2-1, CIE 15). */
+export function toLab([r = 0, g = 0, b = 0]: readonly number[]): [number, number, number] {
+  const [x, y, z] = [
+    (0.4124 * r + 0.3576 * g + 0.1805 * b) / 0.9505,
+    0.2126 * r + 0.7152 * g + 0.0722 * b,
+    (0.0193 * r + 0.1192 * g + 0.9505 * b) / 1.089,
+  ].map((value) => (value > 216 / 24389 ? Math.cbrt(value) : ((24389 / 27) * value + 16) / 116)) as [
+    number,
+    number,
+    number,
+  ];
+  return [116 * y - 16, 500 * (x - y), 200 * (y - z)];
+}

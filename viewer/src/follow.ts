@@ -4,10 +4,12 @@ import type { Block } from "./api/client";
 import type { RecipeDocument } from "./api/schema";
 import { LINEAR } from "./blend";
 import type { DrawableGrid } from "./brdf/grid";
+import { followChoice } from "./choosing";
 import { comparedSpace } from "./compared";
 import type { Context } from "./context";
 import { followNumbers } from "./measuring";
 import { toHash } from "./permalink";
+import { followPointer } from "./pointing";
 import { type Ingredient, only, toDocument } from "./recipe";
 import { Refined } from "./refined";
 import { mixedName } from "./render/tables";
@@ -27,6 +29,8 @@ export function follow(context: Context): void {
   fetchTables(context);
   fetchMixes(context);
   followNumbers(context);
+  followChoice(context);
+  followPointer(context);
   keepLink(context);
   keepShortlist(context);
   play(context);
@@ -126,11 +130,13 @@ function fetchMixes(context: Context): void {
   const { store } = context;
   const own = mixedTable(context, "mixed");
   const other = mixedTable(context, "otherMixed");
-  store.watch(["recipe", "route", "otherRecipe", "otherRoute"], (state) => {
+  const ghosts = mixedTable(context, "ghostMixed");
+  store.watch(["recipe", "route", "otherRecipe", "otherRoute", "ghost"], (state) => {
     const document = (recipe: readonly Ingredient[], blend: string) =>
       recipe.length === 0 || blend === LINEAR ? null : toDocument(state.library.name, recipe, blend);
     own.want(document(state.recipe, blendOf(state)));
     other.want(document(state.otherRecipe, otherBlendOf(state)));
+    ghosts.want(state.ghost && document(state.ghost.recipe, state.ghost.blend));
   });
 }
 

@@ -7,7 +7,7 @@ import { toDocument } from "./recipe";
 import { Refined } from "./refined";
 import { recipeAt } from "./route";
 import { blendOf } from "./shown";
-import type { State } from "./state";
+import { GRID, type State } from "./state";
 
 /** Attributes that have a slider, in their order. */
 export const SLIDERS = ["gloss60", "haze", "highlight_width", "albedo", "L", "a", "b"];
@@ -45,8 +45,8 @@ function question(state: State): Question | null {
 
 function fetchAttributes({ client, store, actions }: Context): void {
   let asked = false;
-  store.watch(["aside", "asked"], ({ aside, asked: numbers }) => {
-    if (asked || (aside === "weights" && numbers === null)) return;
+  store.watch(["aside", "asked", "query", "map"], ({ aside, asked: numbers, query, map }) => {
+    if (asked || !(aside === "numbers" || numbers || query || map === GRID)) return;
     asked = true;
     client.attributes().then(
       ({ attributes }) => store.set({ attributes }),

@@ -15,8 +15,10 @@ export function otherBlendOf(state: Pick<State, "compare" | "kept" | "otherRoute
   return comparedKept(state)?.recipe.blend ?? state.otherRoute?.blend ?? LINEAR;
 }
 
-/** What pictures are made of: the recipe's materials where their pictures mix, else its own table. */
+/** What pictures are made of: the recipe's materials where their pictures mix, else its own table. A ghost stands before it. */
 export function drawnOf(state: State): readonly Ingredient[] {
+  const { ghost } = state;
+  if (ghost) return ghost.blend === LINEAR ? ghost.recipe : state.ghostMixed;
   return blendOf(state) === LINEAR ? state.recipe : state.mixed;
 }
 
@@ -25,7 +27,16 @@ export function otherDrawnOf(state: State): readonly Ingredient[] {
 }
 
 /** What of the state says what is drawn. */
-export const DRAWN = ["recipe", "mixed", "otherRecipe", "otherMixed", "route", "otherRoute"] as const;
+export const DRAWN = [
+  "recipe",
+  "mixed",
+  "otherRecipe",
+  "otherMixed",
+  "route",
+  "otherRoute",
+  "ghost",
+  "ghostMixed",
+] as const;
 
 /** Whether what is shown is not on the route. */
 export function isAway({ atPoint, held }: Pick<State, "atPoint" | "held">): boolean {

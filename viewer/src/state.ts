@@ -4,6 +4,7 @@ import type { Waiting } from "./api/patient";
 import type { AttributeView, FoundView, LibrarySummary, PositionView, SpaceView } from "./api/schema";
 import type { Asked } from "./asked";
 import { LINEAR } from "./blend";
+import { ANYTHING, type Described, type Facets, type Order } from "./materials";
 import type { Ingredient } from "./recipe";
 import type { Route } from "./route";
 import { HOME, type Tone, type View } from "./scene";
@@ -53,7 +54,15 @@ export interface State extends View {
   readonly scheme: "light" | "dark";
   /** The material under the pointer, anywhere on the page. */
   readonly hovered: string | null;
-  /** Materials whose names match what is searched; null when nothing is. */
+  /** What is pointed at to be looked at before it is chosen; and once the pointer rests, what is drawn instead of the recipe. */
+  readonly pointed: Pointed | null;
+  readonly ghost: Ghost | null;
+  /** The materials in words, in the library's order; what is searched, what was chosen of them, and their order in the grid. */
+  readonly described: readonly Described[];
+  readonly query: string;
+  readonly facets: Facets;
+  readonly order: Order;
+  /** Materials that fit what is searched or chosen; null when nothing is. */
   readonly matches: readonly string[] | null;
   readonly view: SpaceView | null;
   readonly route: Route | null;
@@ -61,7 +70,8 @@ export interface State extends View {
   /** Where pictures do not mix: the recipe's table that came last, as a material of its own. */
   readonly mixed: readonly Ingredient[];
   readonly otherMixed: readonly Ingredient[];
-  /** Those of the two that are not the full table of what is to be seen. */
+  readonly ghostMixed: readonly Ingredient[];
+  /** Those of the three that are not the full table of what is to be seen. */
   readonly mixing: readonly MixedKey[];
   /** A free point of the space, instead of one on the route; null on the route. */
   readonly point: readonly number[] | null;
@@ -101,7 +111,20 @@ export interface State extends View {
   readonly future: readonly Whereabouts[];
 }
 
-export type MixedKey = "mixed" | "otherMixed";
+export type MixedKey = "mixed" | "otherMixed" | "ghostMixed";
+
+/** A material that is looked at before it is chosen, and what it is called. */
+export interface Ghost {
+  readonly name: string;
+  readonly recipe: readonly Ingredient[];
+  readonly blend: string;
+}
+
+/** One, or a point of the space that is shown. */
+export type Pointed = Ghost | { readonly point: readonly number[] };
+
+/** The map on which the materials stand side by side. */
+export const GRID = "Grid";
 
 /** Where a person is in the library's spaces, but for t: what undo goes back to. */
 export type Whereabouts = Pick<State, "space" | "blend" | "pace" | "stops" | "point">;
@@ -137,12 +160,19 @@ const NOTHING = {
   mesh: null,
   ownLight: null,
   hovered: null,
+  pointed: null,
+  ghost: null,
+  described: [],
+  query: "",
+  facets: ANYTHING,
+  order: "library",
   matches: null,
   view: null,
   route: null,
   recipe: [],
   mixed: [],
   otherMixed: [],
+  ghostMixed: [],
   mixing: [],
   atPoint: null,
   attributes: null,

@@ -11,6 +11,8 @@ import { type Ingredient, toDocument } from "./recipe";
 /** Pictures of mixes that are asked for together, and that are kept: 64 KB each. */
 const AT_ONCE = 64;
 const MAX_MIXES = 256;
+/** Blocks along a side, to tell pictures apart by. */
+const COARSE = 8;
 
 export class Thumbnails {
   size = 64;
@@ -97,6 +99,12 @@ export class Thumbnails {
     for (const then of waiting) then();
   }
 
+  /** How different two recipes look: the distance of their pictures' blocks, in about the scale of lightness. */
+  distance(a: readonly Ingredient[], b: readonly Ingredient[]): number {
+    const [x, y] = [a, b].map((each) => this.blocks(each, COARSE));
+    return Math.hypot(...x!.map((value, i) => Math.cbrt(value) - Math.cbrt(y![i]!)));
+  }
+
   /** The picture of a recipe averaged to `n` x `n` blocks, linear RGB one after another. */
   blocks(recipe: readonly Ingredient[], n: number): Float64Array {
     const sum = new Float64Array(3 * n * n);
@@ -105,6 +113,12 @@ export class Thumbnails {
       for (let i = 0; i < sum.length; i++) sum[i]! += weight[i % 3]! * part[i]!;
     }
     return sum;
+  }
+
+  /** The mean colour of a recipe's sphere, linear RGB. */
+  mean(recipe: readonly Ingredient[]): number[] {
+    // Of the square, a disc of pi / 4 is sphere.
+    return [...this.blocks(recipe, 1)].map((x) => (4 / Math.PI) * x);
   }
 
   of(name: string): ImageData {
@@ -124,7 +138,8 @@ export class Thumbnails {
   }
 
   private blocksOf(name: string, n: number): Float64Array {
-    const known = this.averaged.get(name);
+    const key = `${n} ${name}`;
+    const known = this.averaged.get(key);
     if (known !== undefined) return known;
     const picture = this.byName.get(name);
     const blocks = new Float64Array(3 * n * n);
@@ -134,7 +149,7 @@ export class Thumbnails {
       const y = Math.floor((Math.floor(pixel / this.size) * n) / this.size);
       for (let c = 0; c < 3; c++) blocks[3 * (y * n + x) + c]! += share * picture[4 * pixel + c]!;
     }
-    this.averaged.set(name, blocks);
+    if (picture !== undefined) this.averaged.set(key, blocks);
     return blocks;
   }
 

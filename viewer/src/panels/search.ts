@@ -1,9 +1,11 @@
-// The search: the materials whose names have all the words, to be chosen by key or by pointer.
+// The search: the materials that fit all the words, to be looked at and chosen by key or by pointer.
 
 import type { Context } from "../context";
 import { el } from "../dom";
 import { clamp } from "../numbers";
+import { materialAsGhost } from "../pointing";
 
+const NOTHING = "None fits: try a colour, what it is made of, or matte, satin, glossy";
 /** So many are listed; more is typed sooner than looked through. */
 const MOST = 40;
 
@@ -37,6 +39,11 @@ class Search {
       onkeydown: (event) => this.press(event),
     });
     this.element = el("div.search", this.input, el("kbd", "/"), this.list);
+    context.store.watch(["query", "matches"], ({ query, matches }) => {
+      const isAsked = query.trim() !== "";
+      this.open(isAsked);
+      this.fill(isAsked ? (matches ?? []) : []);
+    });
   }
 
   private press(event: KeyboardEvent): void {
@@ -49,16 +56,13 @@ class Search {
   }
 
   private update(): void {
-    const words = this.input.value
-      .toLowerCase()
-      .split(/[\s-]+/)
-      .filter(Boolean);
-    const all = this.context.names.filter((name) => words.every((word) => name.toLowerCase().includes(word)));
-    this.context.store.set({ matches: words.length ? all : null });
-    this.open(words.length > 0);
-    this.matches = all.slice(0, MOST);
+    this.context.store.set({ query: this.input.value });
+  }
+
+  private fill(matches: readonly string[]): void {
+    this.matches = matches.slice(0, MOST);
     const items = this.matches.map((name, i) => this.item(name, i));
-    this.list.replaceChildren(...(items.length ? items : [el("li.line.none", "No material of this name")]));
+    this.list.replaceChildren(...(items.length ? items : [el("li.line.none", NOTHING)]));
     this.mark(0);
   }
 
@@ -68,7 +72,13 @@ class Search {
       this.choose(name);
     };
     const picture = this.context.thumbnails.canvas(name);
-    return el("li.line", { role: "option", id: `${this.id}-${i}`, onpointerdown }, picture, name);
+    const onpointermove = () => this.selected !== i && this.mark(i);
+    return el(
+      "li.line",
+      { role: "option", id: `${this.id}-${i}`, onpointerdown, onpointermove },
+      picture,
+      name,
+    );
   }
 
   private mark(i: number): void {
@@ -79,7 +89,9 @@ class Search {
     });
     const marked = this.matches.length ? `${this.id}-${this.selected}` : "";
     this.input.setAttribute("aria-activedescendant", marked);
-    if (!this.list.hidden) this.context.store.set({ hovered: this.matches[this.selected] ?? null });
+    const name = this.matches[this.selected] ?? null;
+    if (!this.list.hidden)
+      this.context.store.set({ hovered: name, pointed: name === null ? null : materialAsGhost(name) });
   }
 
   private open(isOpen: boolean): void {
@@ -88,8 +100,7 @@ class Search {
   }
 
   private close(): void {
-    this.open(false);
-    this.context.store.set({ matches: null, hovered: null });
+    this.context.store.set({ query: "", hovered: null, pointed: null });
   }
 
   private choose(name: string | undefined): void {

@@ -1,8 +1,8 @@
-// A picture of its own: at any size, with all its samples, beside the live one.
+// Pictures of their own: at any size, with all their samples, beside the live one; one alone, or one after another.
 
 import type { PointLight } from "../api/schema";
 import { namesIn } from "../recipe";
-import type { View } from "../scene";
+import type { OwnMesh, View } from "../scene";
 import type { Environment } from "./environment";
 import { Painter, type Shown } from "./painter";
 import type { Tables } from "./tables";
@@ -14,37 +14,63 @@ const PIECE = 40;
 export interface Subject extends Shown {
   readonly view: View;
   readonly environment: Environment | null;
-  readonly lights: readonly PointLight[];
+  /** Samples that are enough, where those of the light are not asked for. */
+  readonly enough?: number | undefined;
 }
 
-/** The square picture with a transparent background; `onProgress` is told the share of samples that are drawn. */
-export async function photograph(
-  { view, environment, lights, ...shown }: Subject,
-  tables: Tables,
-  size: number,
-  onProgress: (share: number) => void,
-): Promise<OffscreenCanvas> {
-  const canvas = document.createElement("canvas");
-  const painter = new Painter(canvas, tables, lights);
-  try {
-    const names = namesIn(shown.recipe, shown.other);
-    // Its triangles are put into an order of each painter's own.
-    const mesh = view.mesh && { ...view.mesh, geometry: view.mesh.geometry.clone() };
-    painter.resize(size, size, names.length);
-    painter.look({ ...view, mesh }, environment);
-    await painter.prepare(environment);
-    const target = painter.targetSamples;
-    const piece = Math.min(1, PIECE / painter.measure());
-    while (painter.improve(names, 1, piece, target) > 0) {
+export class Photographer {
+  private readonly canvas = document.createElement("canvas");
+  private readonly painter: Painter;
+  private looked: Pick<Subject, "view" | "environment"> | undefined;
+  private piece = 0;
+  /** Its triangles are put into an order of each painter's own. */
+  private mesh: { readonly from: OwnMesh; readonly own: OwnMesh } | undefined;
+
+  /** Of square pictures, each of so many materials at most. */
+  constructor(
+    tables: Tables,
+    lights: readonly PointLight[],
+    private readonly size: number,
+    nMaterials: number,
+  ) {
+    this.painter = new Painter(this.canvas, tables, lights);
+    this.painter.resize(size, size, nMaterials);
+  }
+
+  dispose(): void {
+    this.painter.dispose();
+  }
+
+  /** The picture with a transparent background; `onProgress` is told the share of samples that are drawn. */
+  async take(subject: Subject, onProgress: (share: number) => void = () => {}): Promise<OffscreenCanvas> {
+    const { painter, size } = this;
+    const names = namesIn(subject.recipe, subject.other);
+    await this.look(subject);
+    const target = Math.min(subject.enough ?? Number.POSITIVE_INFINITY, painter.targetSamples);
+    while (painter.improve(names, 1, this.piece, target) > 0) {
       const isDone = painter.fence();
       while (!isDone()) await new Promise((resolve) => setTimeout(resolve, 1));
       onProgress(Math.min(...painter.samples(names)) / target);
     }
-    painter.show(shown);
+    painter.show(subject);
     const copy = new OffscreenCanvas(size, size);
-    copy.getContext("2d")!.drawImage(canvas, 0, 0);
+    copy.getContext("2d")!.drawImage(this.canvas, 0, 0);
     return copy;
-  } finally {
-    painter.dispose();
+  }
+
+  /** From where it has looked already, what is drawn stays. */
+  private async look({ view, environment }: Subject): Promise<void> {
+    const { painter, looked } = this;
+    if (looked?.view === view && looked.environment === environment) return;
+    this.looked = { view, environment };
+    painter.look({ ...view, mesh: view.mesh && this.ownMesh(view.mesh) }, environment);
+    if (this.piece > 0) return;
+    await painter.prepare(environment);
+    this.piece = Math.min(1, PIECE / painter.measure());
+  }
+
+  private ownMesh(from: OwnMesh): OwnMesh {
+    if (this.mesh?.from !== from) this.mesh = { from, own: { ...from, geometry: from.geometry.clone() } };
+    return this.mesh.own;
   }
 }

@@ -5,6 +5,8 @@ import { dropdown, el, iconButton, popover } from "../../dom";
 import { NoCardError } from "../../render/card";
 import { EXPOSURES, HOME, LIGHTS, type Light, TONES, TURNS } from "../../scene";
 import { notices } from "../notices";
+import { filmButton } from "./film";
+import { ghostTag } from "./ghost";
 import { LivePicture, type Progress } from "./live";
 import { shapeChoice } from "./objects";
 import { orbitOnDrag } from "./orbit";
@@ -25,8 +27,9 @@ export function materialPanel(context: Context): HTMLElement {
     note,
     homeButton(context),
     pictureButton(context, () => panel),
+    filmButton(context, () => panel),
   );
-  const area = el("div.area", canvas, splitHandle(context), el("div.progress", bar));
+  const area = el("div.area", canvas, splitHandle(context), ghostTag(context), el("div.progress", bar));
   const panel: HTMLElement = el(
     "section.panel.material.stage",
     { "aria-label": "Material" },

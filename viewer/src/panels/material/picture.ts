@@ -3,8 +3,9 @@
 import type { Context } from "../../context";
 import { download, dropdown, el, iconButton, popover, style } from "../../dom";
 import { clamp } from "../../numbers";
+import { namesIn } from "../../recipe";
 import { NoCardError } from "../../render/card";
-import { photograph } from "../../render/photograph";
+import { Photographer } from "../../render/photograph";
 import { blendOf, drawnOf, otherDrawnOf } from "../../shown";
 import { materialName } from "../../title";
 
@@ -69,14 +70,16 @@ async function photographed(
   const [recipe, other] = [drawnOf(view), otherDrawnOf(view)];
   const environment = lights.get(view.light);
   if (environment === undefined) throw new Error("its light has not come yet.");
-  const subject = { view, environment, lights: view.library.lights };
   try {
-    return await photograph(
-      { ...subject, recipe, other, split, exposure: 2 ** exposure, tone },
-      tables,
-      size,
-      onProgress,
-    );
+    const camera = new Photographer(tables, view.library.lights, size, namesIn(recipe, other).length);
+    try {
+      return await camera.take(
+        { view, environment, recipe, other, split, exposure: 2 ** exposure, tone },
+        onProgress,
+      );
+    } finally {
+      camera.dispose();
+    }
   } catch (error) {
     if (error instanceof NoCardError)
       return smallPicture(thumbnails.picture(view.recipe, blendOf(view)), size);
@@ -93,7 +96,7 @@ function smallPicture(small: ImageData, size: number): OffscreenCanvas {
 }
 
 /** The panel's own backdrop (material.css), behind what is drawn. */
-function putBehind(picture: OffscreenCanvas, panel: HTMLElement): void {
+export function putBehind(picture: OffscreenCanvas, panel: HTMLElement): void {
   const pen = picture.getContext("2d")!;
   const { width: size } = picture;
   const [x, y] = [0.5 * size, 0.44 * size];

@@ -6,19 +6,20 @@ import type { Context } from "../../context";
 import { coordinatesIn, pointOf, withCoordinates } from "../../coordinates";
 import { el, onResize, segments, style } from "../../dom";
 import { paced } from "../../paced";
+import { materialAsGhost } from "../../pointing";
 import { weightIn } from "../../recipe";
 import { Appearance } from "../../render/appearance";
 import { NoCardError } from "../../render/card";
 import { Cloud } from "../../render/cloud";
 import { CoordinateMap } from "../../render/maps";
 import { recipeAt } from "../../route";
-import type { State } from "../../state";
+import { GRID, type State } from "../../state";
 import { short } from "../brdf/plot";
 import { turnOnKeys } from "../material/orbit";
 import { notices, sayWhenLost } from "../notices";
+import { gridFilters, materialGrid } from "./grid";
 import { Labels } from "./labels";
 import { listenToPointer, type Pointer } from "./pointer";
-import { shelf } from "./shelf";
 
 const APPEARANCE = "Looks";
 /** Milliseconds between drawings: what moves is the material, and this stands beside it. */
@@ -39,7 +40,8 @@ export function spacePanel(context: Context): HTMLElement {
   const area = el("div.area", canvas);
   const note = el("span.note");
   const title = el("div.line.bar", el("h2", "Space"), maps);
-  const foot = el("div.line.bar", note);
+  const filters = gridFilters(context);
+  const foot = el("div.line.bar", note, filters);
   const panel = el(
     "section.panel.space",
     { "aria-label": "Space" },
@@ -58,10 +60,24 @@ export function spacePanel(context: Context): HTMLElement {
       area.append(new SpacePicture(context, cloud, canvas, { maps, note }).labels.element);
     } catch (error) {
       if (!(error instanceof NoCardError)) throw error;
-      canvas.hidden = true;
-      note.textContent = "The space itself needs WebGL2, which this browser does not have.";
-      area.append(shelf(context));
+      context.actions.say(
+        "space",
+        "card",
+        "The space itself needs WebGL2, which this browser does not have.",
+      );
+      context.store.set({ map: GRID });
     }
+  });
+  let grid: HTMLElement | undefined;
+  context.store.watch(["map", "pictured"], ({ map, pictured }) => {
+    const isGrid = map === GRID;
+    if (isGrid && pictured && !grid) {
+      grid = materialGrid(context);
+      area.append(grid);
+    }
+    area.classList.toggle("side-by-side", isGrid);
+    note.hidden = isGrid;
+    filters.hidden = !isGrid;
   });
   return panel;
 }
@@ -110,13 +126,13 @@ class SpacePicture {
 
   /** The name of the map that is shown. */
   private get chosen(): string {
-    return this.embedding?.name ?? APPEARANCE;
+    return this.context.store.get().map === GRID ? GRID : (this.embedding?.name ?? APPEARANCE);
   }
 
   /** The maps that the space has. */
   private offer(): void {
     const embeddings = this.context.store.get().view?.embeddings ?? [];
-    const options = [APPEARANCE, ...embeddings.map(({ name }) => name)];
+    const options = [APPEARANCE, ...embeddings.map(({ name }) => name), GRID];
     const { element, mark } = segments(
       "Map",
       options.map((name) => [name]),
@@ -240,7 +256,8 @@ class SpacePicture {
       hover: (x, y) => {
         const i = cloud.pick(x, y);
         canvas.style.cursor = this.isAtMarker(x, y) ? "move" : i === null ? "" : "pointer";
-        store.set({ hovered: i === null ? null : names[i]! });
+        const name = i === null ? null : names[i]!;
+        store.set({ hovered: name, pointed: name ? materialAsGhost(name) : this.placeAt(x, y) });
       },
       grab: (x, y) => {
         cloud.controls.enabled = !this.isAtMarker(x, y);
@@ -250,7 +267,7 @@ class SpacePicture {
       release: () => {
         cloud.controls.enabled = true;
       },
-      leave: () => store.set({ hovered: null }),
+      leave: () => store.set({ hovered: null, pointed: null }),
       click: (x, y) => {
         const i = cloud.pick(x, y);
         if (i !== null) actions.choose(names[i]!);
@@ -272,12 +289,24 @@ class SpacePicture {
   }
 
   private drag(x: number, y: number): void {
-    const { store, actions, names } = this.context;
+    const there = this.pointAt(x, y);
+    if (there !== null) this.context.actions.goTo(there);
+  }
+
+  /** A point that is pointed at, where the present material could go. */
+  private placeAt(x: number, y: number): State["pointed"] {
+    const there = this.isFree && !this.isAtMarker(x, y) ? this.pointAt(x, y) : null;
+    return there && { point: there };
+  }
+
+  /** The point of the space under the pointer, as far away as the present material; null where the map has none. */
+  private pointAt(x: number, y: number): number[] | null {
+    const { store, names } = this.context;
     const { view, recipe, point } = store.get();
     const { map } = this.cloud;
-    if (!(map instanceof CoordinateMap) || view === null || this.here === null) return;
+    if (!(map instanceof CoordinateMap) || view === null || this.here === null) return null;
     const coordinates = map.coordinatesAt(this.cloud.unproject(x, y, this.here));
-    actions.goTo(withCoordinates(view, point ?? pointOf(view, names, recipe), this.chosen, coordinates));
+    return withCoordinates(view, point ?? pointOf(view, names, recipe), this.chosen, coordinates);
   }
 }
 

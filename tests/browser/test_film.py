@@ -1,0 +1,82 @@
+"""Films of a route, and of an object that turns."""
+
+from io import BytesIO
+from pathlib import Path
+from zipfile import ZipFile
+
+import numpy as np
+from conftest import Explorer, to_linear  # pyright: ignore[reportMissingImports]
+from PIL import Image
+
+SMALL = {"width": 460, "height": 560}
+PAIR = "#space=linear&pace=uniform&stops=cherry-235,gold-paint&t=0.5&light=points&shape="
+
+
+def filmed(explorer: Explorer, **chosen: str) -> tuple[str, bytes]:
+    """The name and the content of a short, small film."""
+    page = explorer.page
+    page.get_by_role("button", name="Film").click()
+    page.locator("[name=film-size]").fill("48")
+    page.locator("[name=seconds]").fill("0.2")
+    page.locator("[name=quality]").select_option("draft")
+    for name, value in chosen.items():
+        page.locator(f"[name={name.replace('_', '-')}]").select_option(value)
+    with page.expect_download() as file:
+        page.get_by_role("button", name="Save", exact=True).click()
+    path = file.value.path()
+    assert isinstance(path, Path)
+    return file.value.suggested_filename, path.read_bytes()
+
+
+def frames(content: bytes) -> list[np.ndarray]:
+    with ZipFile(BytesIO(content)) as archive:
+        names = archive.namelist()
+        assert names == [f"{i:04}.png" for i in range(5)]
+        pictures = [Image.open(BytesIO(archive.read(name))).convert("RGB") for name in names]
+        return [to_linear(np.asarray(picture)) for picture in pictures]
+
+
+def test_a_film_of_a_route_goes_evenly_from_one_stop_to_the_next(explorer: Explorer) -> None:
+    explorer.page.set_viewport_size(SMALL)
+    explorer.open(PAIR + "sphere")
+    name, content = filmed(explorer, film_as="frames (zip of PNG)")
+    assert name == "cherry-235-to-gold-paint-frames.zip"
+    first, *_, last = pictures = frames(content)
+    assert np.abs(last - first).mean() > 0.01
+    # Pictures mix as materials do, at every frame of an even pace; what is brighter than the screen is cut.
+    dark = np.max([first, last], axis=0) < 0.9
+    for i, picture in enumerate(pictures):
+        mixed = (1 - i / 4) * first + i / 4 * last
+        # Half a step of 8 bits in each, where sRGB is steepest for what is bright.
+        np.testing.assert_allclose(picture[dark], mixed[dark], atol=2.5 / 255)
+
+
+def test_an_object_turns_once_and_only_then(explorer: Explorer) -> None:
+    explorer.page.set_viewport_size(SMALL)
+    explorer.open(PAIR + "teapot")
+    name, content = filmed(explorer, motion="turntable", film_as="frames (zip of PNG)")
+    assert name == "cherry-235-to-gold-paint-0.500-turning-frames.zip"
+    pictures = frames(content)
+    for one, other in zip(pictures, [*pictures[1:], pictures[0]], strict=True):
+        assert np.abs(one - other).mean() > 0.001
+
+
+def test_a_video_has_all_frames(explorer: Explorer) -> None:
+    explorer.page.set_viewport_size(SMALL)
+    explorer.open(PAIR + "sphere")
+    name, content = filmed(explorer)
+    assert name.removeprefix("cherry-235-to-gold-paint") in (".mp4", ".webm")
+    play = """async (data) => {
+      const video = document.createElement("video");
+      video.src = URL.createObjectURL(new Blob([Uint8Array.from(data)]));
+      await new Promise((resolve, reject) => {
+        video.onloadeddata = resolve;
+        video.onerror = () => reject(video.error);
+      });
+      return [video.videoWidth, video.videoHeight, video.duration];
+    }"""
+    # The explorer itself may show no videos.
+    elsewhere = explorer.page.context.new_page()
+    width, height, seconds = elsewhere.evaluate(play, list(content))
+    assert (width, height) == (48, 48)
+    np.testing.assert_allclose(seconds, 0.2, atol=0.001)
