@@ -1,5 +1,6 @@
 """File formats of BRDFs. A file is what its first bytes say, whatever its name."""
 
+from . import spectra
 from .content import merl_bytes
 from .find import Skipped, SourceBrdf, find_brdfs, read_brdf, read_nbrdf_archive
 from .merl import MerlFile, encode_header, read_merl, write_merl, write_samples
@@ -8,12 +9,10 @@ from .rgl import RglBrdf
 from .rgl_reader import read_rgl
 from .rgl_writer import write_rgl
 from .sources import UNREADABLE
-from .spectra import WAVELENGTHS, smooth_primaries
 from .write import write_brdf
 
 __all__ = [
     "UNREADABLE",
-    "WAVELENGTHS",
     "MerlFile",
     "NeuralBrdf",
     "RglBrdf",
@@ -27,7 +26,7 @@ __all__ = [
     "read_nbrdf",
     "read_nbrdf_archive",
     "read_rgl",
-    "smooth_primaries",
+    "spectra",
     "write_brdf",
     "write_merl",
     "write_rgl",

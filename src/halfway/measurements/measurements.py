@@ -4,8 +4,7 @@
     values     f_r in 1/sr, without the cosine, linear RGB
     weights    how much each counts beside the others
 
-`read_measurements` tells the kind of a file by its content: CSV (`csv_measurements`), the metrology institutes' JSON
-(`brdf_json`), ASTM E1392 text (`astm`).
+`read_measurements` tells the kind of a file by its content: CSV or ASTM E1392 (`text`), the metrology institutes' JSON (`brdf_json`).
 """
 
 from dataclasses import dataclass, field
