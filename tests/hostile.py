@@ -16,7 +16,8 @@ from written_files import keras, keras_model, keras_numbered, merl, nbrdf_layers
 from halfway import Brdf, Grid, TabularBrdf
 from halfway.errors import RenderError
 from halfway.fetch.unpack import unpack
-from halfway.formats import find_brdfs, read_brdf, write_brdf, write_zarr
+from halfway.formats import find_brdfs, read_brdf, write_brdf
+from halfway.formats.zarr_tables import write_zarr
 from halfway.formats.tensor_file import write_tensor_file
 from halfway.library import StoredLibrary, build_library
 

@@ -10,7 +10,8 @@ from halfway import Grid, mix, tabulate
 from halfway.brdf import Brdf
 from halfway.cli import app
 from halfway.errors import FormatError
-from halfway.formats import ZarrStore, find_brdfs, read_brdf, write_brdf, write_zarr
+from halfway.formats import find_brdfs, read_brdf, write_brdf
+from halfway.formats.zarr_tables import ZarrStore, write_zarr
 from halfway.halfdiff import turn
 from halfway.library import build_library
 from halfway.models.anisotropic import Lobe, Microfacets

@@ -17,8 +17,10 @@ if TYPE_CHECKING:
     from .halfdiff import MERL, Grid, HalfDiff, from_half_diff, to_half_diff
     from .instruments import attributes
     from .library import Library, build_library, open_library
+    from .measurements import Measurements
     from .people import distances
     from .recipes import Recipe, mix
+    from .recovery import plan, recover
     from .render import picture
     from .space import LinearSpace, PaperSpace, Route, Space, make_space, route
 
@@ -31,8 +33,10 @@ _HOMES = {
     "formats": ("read_brdf", "write_brdf"),
     "instruments": ("attributes",),
     "library": ("Library", "build_library", "open_library"),
+    "measurements": ("Measurements",),
     "people": ("distances",),
     "recipes": ("Recipe", "mix"),
+    "recovery": ("plan", "recover"),
     "render": ("picture",),
     "space": ("LinearSpace", "PaperSpace", "Route", "Space", "make_space", "route"),
 }
@@ -45,6 +49,7 @@ __all__ = [
     "HalfwayError",
     "Library",
     "LinearSpace",
+    "Measurements",
     "PaperSpace",
     "Pca",
     "Recipe",
@@ -61,8 +66,10 @@ __all__ = [
     "mix",
     "open_library",
     "picture",
+    "plan",
     "reach",
     "read_brdf",
+    "recover",
     "route",
     "tabulate",
     "to_half_diff",

@@ -1,6 +1,6 @@
 """File formats of BRDFs. A file is what its first bytes say, whatever its name."""
 
-from . import zarr_tables
+from . import spectra, zarr_tables
 from .content import merl_bytes
 from .find import Skipped, SourceBrdf, find_brdfs, read_brdf, read_nbrdf_archive
 from .merl import MerlFile, encode_header, read_merl, write_merl, write_samples
@@ -9,33 +9,27 @@ from .rgl import RglBrdf
 from .rgl_reader import read_rgl
 from .rgl_writer import write_rgl
 from .sources import UNREADABLE
-from .spectra import WAVELENGTHS, smooth_primaries
 from .write import write_brdf
-from .zarr_tables import ZarrStore, is_zarr, write_zarr
 
 __all__ = [
     "UNREADABLE",
-    "WAVELENGTHS",
     "MerlFile",
     "NeuralBrdf",
     "RglBrdf",
     "Skipped",
     "SourceBrdf",
-    "ZarrStore",
     "encode_header",
     "find_brdfs",
-    "is_zarr",
     "merl_bytes",
     "read_brdf",
     "read_merl",
     "read_nbrdf",
     "read_nbrdf_archive",
     "read_rgl",
-    "smooth_primaries",
+    "spectra",
     "write_brdf",
     "write_merl",
     "write_rgl",
     "write_samples",
-    "write_zarr",
     "zarr_tables",
 ]

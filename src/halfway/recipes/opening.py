@@ -21,7 +21,7 @@ from typing import Any
 
 from ..brdf import TabularBrdf, own_grid
 from ..errors import RecipeError
-from ..formats import ZarrStore, is_zarr, read_brdf
+from ..formats import read_brdf, zarr_tables
 from ..halfdiff import common_grid
 from ..library import DEFAULT_LIBRARY, Library, LibraryRef, Origin, ProceduralLibrary, open_library
 from ..locations import PERMUTED_PREFIX, Location, RemotePath, to_location
@@ -122,7 +122,7 @@ def _materials(word: str, elsewhere: str) -> Iterator[NamedBrdf]:
         raise RecipeError(
             f"{path} is no library and no route: expected one of these at a URL. Copy the file here first."
         )
-    elif isinstance(path, Path) and is_zarr(path):
+    elif isinstance(path, Path) and zarr_tables.is_zarr(path):
         yield from _store(path)
     elif isinstance(path, Path) and path.is_dir():
         yield from _folder(path)
@@ -152,7 +152,7 @@ def _file(path: Path) -> NamedBrdf:
 
 def _store(path: Path) -> Iterator[NamedBrdf]:
     """The tables of a Zarr store."""
-    store = ZarrStore.open(path)
+    store = zarr_tables.ZarrStore.open(path)
     for i, name in enumerate(store.names):
         of = {"file": str(path), "table": i, "modified": store.chunk(i).path.stat().st_mtime_ns}
         yield NamedBrdf(name, partial(store.read, i), of, name)

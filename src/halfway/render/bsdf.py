@@ -31,7 +31,7 @@ import numpy as np
 
 from ..brdf import TabularBrdf, own_grid, tabulate
 from ..errors import RenderError
-from ..formats import WAVELENGTHS, read_brdf, smooth_primaries
+from ..formats import read_brdf, spectra
 from ..halfdiff import Axis, Grid
 from ..library import DEFAULT_LIBRARY, open_library
 from ..recipes import Mixer, Recipe
@@ -147,12 +147,12 @@ class TableBsdf(mi.BSDF):
             return mi.Color1f(mi.luminance(color))
         if not mi.is_spectral:
             return color
-        first, last = WAVELENGTHS[[0, -1]]
-        position = (si.wavelengths - first) * ((len(WAVELENGTHS) - 1) / (last - first))
+        first, last = spectra.WAVELENGTHS[[0, -1]]
+        position = (si.wavelengths - first) * ((len(spectra.WAVELENGTHS) - 1) / (last - first))
         spectrum = mi.UnpolarizedSpectrum(0)
         for i in range(len(spectrum)):
-            at = dr.clip(position[i], 0, len(WAVELENGTHS) - 1)
-            lower = dr.minimum(mi.UInt32(at), len(WAVELENGTHS) - 2)
+            at = dr.clip(position[i], 0, len(spectra.WAVELENGTHS) - 1)
+            lower = dr.minimum(mi.UInt32(at), len(spectra.WAVELENGTHS) - 2)
             below, above = (
                 dr.gather(mi.Vector4f, self.primaries, index) for index in (lower, lower + 1)
             )
@@ -238,7 +238,7 @@ def _neighbours(axis: Axis, angle: Any) -> list[tuple[Any, Any]]:
 
 def _primaries() -> np.ndarray:
     """The smooth primaries as the renderer reads them, shape (n wavelengths, 4)."""
-    return np.pad(smooth_primaries(WAVELENGTHS), [(0, 0), (0, 1)])
+    return np.pad(spectra.smooth_primaries(spectra.WAVELENGTHS), [(0, 0), (0, 1)])
 
 
 def _read(props: Any) -> TabularBrdf:
