@@ -6,7 +6,7 @@ RUN := $(UV) run --frozen
 PYTEST := $(RUN) pytest -n 2
 
 .DEFAULT_GOAL := help
-.PHONY: help setup demo test lint viewer chromium bench pictures docs release-check lowest
+.PHONY: help setup demo test lint viewer chromium bench pictures docs release-check lowest blender blender-check
 
 help:           ## this list
 	@grep -hE '^[a-z-]+: .*##|^[a-z-]+:  *##' $(MAKEFILE_LIST) | sed -E 's/:.*## */\t/' | expand -t 14
@@ -45,6 +45,12 @@ release-check: setup ## the wheel in an environment of its own: every command of
 
 lowest: setup   ## the tests that touch every dependency, on the lowest versions that are allowed
 	$(RUN) python tests/lowest.py
+
+blender: setup  ## the Blender extension, a zip in dist/
+	$(RUN) python blender/build.py
+
+blender-check: setup ## the extension in Blender itself: formats, node trees, pictures
+	$(RUN) python tests/blender.py
 
 bench: setup    ## speed, as ratios measured in one run; a table at the end, and in docs/benchmarks.md
 	$(RUN) pytest benchmarks -s -q -o python_files='bench_*.py' -o python_functions='bench_* test_*' -o addopts='--benchmark-columns=median,rounds'

@@ -17,8 +17,8 @@ from halfway import Brdf, Grid, TabularBrdf
 from halfway.errors import RenderError
 from halfway.fetch.unpack import unpack
 from halfway.formats import find_brdfs, read_brdf, write_brdf
-from halfway.formats.zarr_tables import write_zarr
 from halfway.formats.tensor_file import write_tensor_file
+from halfway.formats.zarr_tables import write_zarr
 from halfway.library import StoredLibrary, build_library
 
 UP = np.array([0.0, 0.0, 1.0])

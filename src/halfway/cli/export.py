@@ -15,6 +15,7 @@ class Renderer(StrEnum):
     pbrt_v2 = "pbrt-v2"
     pbrt_v4 = "pbrt-v4"
     usd = "usd"
+    blender = "blender"
 
 
 def export(
@@ -28,13 +29,15 @@ def export(
 ) -> None:
     """Write materials for another renderer: a folder with the material, a scene and a page, to be run as it is.
 
-    Several materials get a folder each, below DIR; usd has all of them in one layer, fitted.
+    Several materials get a folder each, below DIR; usd has all of them in one layer, fitted,
+    and blender in one file for its extension, with the ways between them.
 
     \b
     halfway export gold-paint --for mitsuba -o gold
     halfway export builtin:merl-abc:teflon --for pbrt-v4 -o teflon
     halfway export recipes.json --for pbrt-v2 -o frames
     halfway export builtin:merl-abc --for usd -o materials
+    halfway export cherry-235 teflon chrome --for blender -o space
     """
     from halfway.batch import filling
     from halfway.export import write_scenes

@@ -15,6 +15,7 @@ from .outputs import writing
 class Model(StrEnum):
     openpbr = "openpbr"
     principled = "principled"
+    cycles = "cycles"
     gltf = "gltf"
     gltf_blender = "gltf-blender"
     gltf_core = "gltf-core"

@@ -25,8 +25,8 @@ def write_scenes(
     OutputError
         As `write_scene`.
     """
-    if renderer == "usd":
-        return [_write_usd(folder, materials, work)]
+    if whole := {"usd": _write_usd, "blender": _write_blender}.get(renderer):
+        return [whole(folder, materials, work)]
     one = len(materials) == 1
     folders = [folder] if one else [folder / name for name in file_names(materials, "")]
     pairs = list(zip(materials, folders, strict=True))
@@ -52,6 +52,13 @@ def _write_usd(folder: Path, materials: Sequence[NamedBrdf], work: Work) -> Scen
         text = readme("Materials for USD", origin, what, f"usdview {SCENE}", _USD)
         temporary.write_text(text, encoding="utf-8")
     return SceneFolder(folder, (folder / MATERIALS, folder / SCENE, page), f"usdview {SCENE}")
+
+
+def _write_blender(folder: Path, materials: Sequence[NamedBrdf], work: Work) -> SceneFolder:
+    from .blender import write_blender
+
+    path = write_blender(folder, materials, work)
+    return SceneFolder(folder, (path,), f"blender, and in it File > Import > halfway: {path.name}")
 
 
 _USD = f"""`{MATERIALS}` holds each material as MaterialX's OpenPBR and as UsdPreviewSurface, both fitted; what each fit is worth stands in its

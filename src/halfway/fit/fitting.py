@@ -7,7 +7,7 @@ where they do nothing, times .003, so that a parameter that the material does no
 model's readings, as a weak voice: of models that are about as good, the one that other programs read best is found.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
@@ -17,6 +17,7 @@ from threadpoolctl import threadpool_limits
 from .._types import Values
 from ..brdf import Brdf, Quality, directional_albedo, lit_sphere, quality
 from ..errors import HalfwayError
+from .cycles import Cycles
 from .gltf import Gltf, GltfBlender, GltfCore, PreviewSurface
 from .metric import Target, Terms
 from .model import AnalyticModel, Vector
@@ -26,6 +27,7 @@ from .principled import Principled
 MODELS: dict[str, type[AnalyticModel]] = {
     "openpbr": OpenPbr,
     "principled": Principled,
+    "cycles": Cycles,
     "gltf": Gltf,
     "gltf-blender": GltfBlender,
     "gltf-core": GltfCore,
@@ -33,6 +35,8 @@ MODELS: dict[str, type[AnalyticModel]] = {
 }
 """The models by name."""
 DEFAULT_MODEL = "openpbr"
+Solver = Callable[..., Any]
+"""Bounded least squares, with the arguments and the result (``x``, ``cost``) of `scipy.optimize.least_squares`."""
 
 ALBEDO_DEGREES = (5.0, 20.0, 40.0, 60.0, 75.0)
 """Where albedos are compared; other angles than those of the metric."""
@@ -107,8 +111,12 @@ class Fit:
         }
 
 
-def fit(brdf: Brdf, model: str = DEFAULT_MODEL, *, name: str = "") -> Fit:
+def fit(
+    brdf: Brdf, model: str = DEFAULT_MODEL, *, name: str = "", solver: Solver | None = None
+) -> Fit:
     """The parameters of ``model``, one of `MODELS`, that stand for a material best.
+
+    ``solver`` does what `scipy.optimize.least_squares` does, where that is not to be had.
 
     Raises
     ------
@@ -129,7 +137,7 @@ def fit(brdf: Brdf, model: str = DEFAULT_MODEL, *, name: str = "") -> Fit:
         raise HalfwayError(f"there is no model {model!r}: expected {', '.join(MODELS)}.")
     target, truth = Target.of(brdf, name), lit_sphere(brdf)
     with threadpool_limits(1, "blas"):
-        found = _chosen(_candidates(MODELS[model], target), truth)
+        found = _chosen(_candidates(MODELS[model], target, solver or _scipys), truth)
     angles = np.radians(ALBEDO_DEGREES)
     albedo_error = np.abs(directional_albedo(found, angles) - directional_albedo(brdf, angles))
     return Fit(
@@ -157,22 +165,28 @@ def _likeness(model: AnalyticModel, truth: Values) -> float:
     return min(INDISTINGUISHABLE_DB, quality(lit_sphere(model), truth).psnr)
 
 
-def _candidates(kind: type[AnalyticModel], target: Target) -> list[AnalyticModel]:
+def _candidates(kind: type[AnalyticModel], target: Target, solver: Solver) -> list[AnalyticModel]:
     """The best of a search in all parameters; where programs read the model in several ways, all that searches end at."""
     even = dict.fromkeys(kind.grain, 0.0) if target.is_isotropic else {}
     if not kind.simpler:
-        return _searched(kind, target, kind.held(even))[:1]
+        return _searched(kind, target, kind.held(even), solver)[:1]
     return [
         found
         for held in (*kind.simpler, {})
-        for found in _searched(kind, target, kind.held({**even, **held}))
+        for found in _searched(kind, target, kind.held({**even, **held}), solver)
     ]
 
 
-def _searched(kind: type[AnalyticModel], target: Target, held: Vector) -> list[AnalyticModel]:
-    """What the best few starts lead to, with some parameters held; the best first."""
-    from scipy.optimize import least_squares
+def _scipys(*args: Any, **options: Any) -> Any:
+    from scipy.optimize import least_squares  # takes a second to load
 
+    return least_squares(*args, **options)
+
+
+def _searched(
+    kind: type[AnalyticModel], target: Target, held: Vector, solver: Solver
+) -> list[AnalyticModel]:
+    """What the best few starts lead to, with some parameters held; the best first."""
     low, high = kind.bounds()
     neutral, width = kind.neutral(), high - low
     free = np.isnan(held)
@@ -195,7 +209,7 @@ def _searched(kind: type[AnalyticModel], target: Target, held: Vector) -> list[A
     starts = [np.clip(start.to_vector(), *inside)[free] for start in _starts(kind, target)]
     starts.sort(key=lambda x: float(np.square(residuals(x)).sum()))
     found: list[Any] = [
-        least_squares(
+        solver(
             residuals,
             start,
             bounds=(low[free], high[free]),
@@ -215,7 +229,7 @@ def _searched(kind: type[AnalyticModel], target: Target, held: Vector) -> list[A
 
 def _starts(kind: type[AnalyticModel], target: Target) -> Sequence[AnalyticModel]:
     starts = kind.starts(target.body(), target.albedo())
-    if target.is_isotropic:
+    if target.is_isotropic or not kind.grain:
         return starts
     grain = dict(zip(kind.grain, (SOMEWHAT_ANISOTROPIC, target.widest()), strict=True))
     return [replace(start, **grain) for start in starts]
@@ -223,6 +237,8 @@ def _starts(kind: type[AnalyticModel], target: Target) -> Sequence[AnalyticModel
 
 def _within_half_a_turn(model: AnalyticModel) -> AnalyticModel:
     """The same with its direction in [0, pi)."""
+    if not model.grain:
+        return model
     if model.is_isotropic:
         return replace(model, **{model.grain[1]: 0.0})
     direction = round(getattr(model, model.grain[1]) % np.pi, DECIMALS)

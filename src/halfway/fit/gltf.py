@@ -129,25 +129,32 @@ class _InBlender(Gltf):
         return self.specular * f0 + (1 - self.specular * f0) * white
 
 
-class GltfCore(Gltf):
+class _Part(Gltf):
+    """Fewer parameters, which no program reads in another way."""
+
+    simpler: ClassVar = ()
+
+    @property
+    def readings(self) -> Mapping[str, AnalyticModel]:
+        return {}
+
+
+class GltfCore(_Part):
     """The part without extensions, which all programs read alike."""
 
     formula = "glTF 2.0 without extensions"
     ranges: ClassVar = {name: Gltf.ranges[name] for name in ("base_color", "metallic", "roughness")}
-    simpler: ClassVar = ()
-    readings: ClassVar = {}
+    grain: ClassVar = ()
 
 
-class GltfBlender(Gltf):
+class GltfBlender(_Part):
     """The part that Blender reads as the specification has it: its edge is white, and so is glTF's where ``specular`` is 1."""
 
     formula = "glTF 2.0 as Blender reads it"
     ranges: ClassVar = {name: r for name, r in Gltf.ranges.items() if name != "specular"}
-    simpler: ClassVar = ()
-    readings: ClassVar = {}
 
 
-class PreviewSurface(Gltf):
+class PreviewSurface(_Part):
     """``UsdPreviewSurface`` in its metallic workflow: glTF's model with an index and a clearcoat, without tints of the gloss, and isotropic.
 
     Source: Pixar, UsdPreviewSurface Specification 2.6.
@@ -159,8 +166,7 @@ class PreviewSurface(Gltf):
         for name, r in Gltf.ranges.items()
         if not name.startswith(("specular", "anisotropy"))
     }
-    simpler: ClassVar = ()
-    readings: ClassVar = {}
+    grain: ClassVar = ()
 
 
 def _lobe(theta_h: Angle, cos_i: Angle, cos_o: Angle, roughness: float) -> Angle:

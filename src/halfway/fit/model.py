@@ -43,8 +43,8 @@ class AnalyticModel(IsotropicModel):
     """Of each parameter, in the order of the fields; a colour's range is that of each channel."""
     colours: ClassVar[frozenset[str]]
     """The parameters of three channels."""
-    grain: ClassVar[tuple[str, str]]
-    """The parameters that say how anisotropic it is, 0 for not, and in which direction its main lobe is widest."""
+    grain: ClassVar[tuple[str, ...]] = ()
+    """The parameters that say how anisotropic it is, 0 for not, and in which direction its main lobe is widest; none where it never is."""
     n_searches: ClassVar[int] = 2
     """From how many of the starts to search."""
     simpler: ClassVar[Sequence[Mapping[str, float]]] = ()
@@ -62,7 +62,7 @@ class AnalyticModel(IsotropicModel):
 
     @property
     def is_isotropic(self) -> bool:
-        return getattr(self, self.grain[0]) == 0
+        return not self.grain or getattr(self, self.grain[0]) == 0
 
     @abstractmethod
     def at(

@@ -39,12 +39,17 @@ _ALBEDO_ANGLES = np.radians([0.0, 20.0, 40.0, 60.0, 70.0, 80.0])
 
 
 class Mixer:
-    """Mixes recipes of one library, keeping the rows it used last (24 of 17.5 MB each on the MERL grid)."""
+    """Mixes recipes of one library, keeping the rows it used last (24 of 17.5 MB each on the MERL grid).
 
-    def __init__(self, library: Library, *, n_rows: int | None = None) -> None:
+    ``compiles``: whether loops may be compiled once that pays; where there is no numba they may not.
+    """
+
+    def __init__(
+        self, library: Library, *, n_rows: int | None = None, compiles: bool = True
+    ) -> None:
         n_rows = n_rows or max(LEAST_ROWS, int(KEPT_BYTES / (12 * library.grid.size)))
         self._library = library
-        self._n_rows = n_rows
+        self._n_rows, self._compiles = n_rows, compiles
         # Not of a method: a mixer that is done with shall go at once, with its rows.
         self._row = lru_cache(n_rows)(partial(_row, library))
         # Body and gloss are as large as a row, each.
@@ -54,7 +59,7 @@ class Mixer:
 
     def __reduce__(self) -> tuple[Any, ...]:
         """A mixer travels without its rows."""
-        return partial(Mixer, self._library, n_rows=self._n_rows), ()
+        return partial(Mixer, self._library, n_rows=self._n_rows, compiles=self._compiles), ()
 
     def mix(self, recipe: Recipe) -> TabularBrdf:
         """The table of a recipe.
@@ -77,7 +82,7 @@ class Mixer:
         self._n_mixed += 1
         mean = partial(mean_of, mapping=recipe.blend.mapping)
         if recipe.blend is Blend.LINEAR:
-            mean = _weighted_sum if self._n_mixed > N_AT_ONCE else _plain_sum
+            mean = _weighted_sum if self._compiling() else _plain_sum
         for out, channel, weights in zip(values, range(3), recipe.weights, strict=True):
             used = np.flatnonzero(weights)
             mean(out, [rows[i][channel] for i in used], weights[used])
@@ -94,12 +99,15 @@ class Mixer:
             recipe.weights,
             mapping,
             grid,
-            compiled=self._n_mixed > N_AT_ONCE,
+            compiled=self._compiling(),
         )
         table = TabularBrdf(values.reshape(3, *grid.shape), grid)
         limit = np.maximum(1, np.max([part.albedos for part in parts], axis=0))
         share = np.min(limit / np.maximum(albedos(table, _ALBEDO_ANGLES), limit), axis=0)
         return values * share.astype(np.float32)[:, None] if (share < 1).any() else values
+
+    def _compiling(self) -> bool:
+        return self._compiles and self._n_mixed > N_AT_ONCE
 
 
 class _Parts(NamedTuple):

@@ -1,0 +1,135 @@
+"""The extension in Blender itself: ``make blender-check``. With ``--table`` and libraries behind it, the table of its page instead.
+
+Blender is ``bpy`` from PyPI, which takes Python 3.13 and no other; `in_blender` runs in an environment of its own with nothing else.
+Where Python 3.13 or the wheel cannot be had, that is said in a line, and nothing is checked.
+"""
+
+import json
+import os
+import subprocess
+import sys
+import tempfile
+from collections import defaultdict
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+ROOT = Path(__file__).parents[1]
+sys.path[:0] = [str(ROOT / "tests"), str(ROOT / "blender")]
+
+from build import build  # noqa: E402
+from written_files import keras, nbrdf_layers  # noqa: E402
+
+from halfway import open_library  # noqa: E402
+from halfway.export import write_recipe, write_scenes  # noqa: E402
+from halfway.formats import write_brdf  # noqa: E402
+from halfway.halfdiff import Grid  # noqa: E402
+from halfway.library import Library  # noqa: E402
+from halfway.recipes import Recipe, open_materials  # noqa: E402
+
+UV = os.environ.get("UV", "uv")  # `uv run` says where it is
+BLENDER = "5.3.0"
+LIBRARY = "builtin:merl-abc"
+STOPS = ("cherry-235", "gold-paint", "teflon")
+KINDS = {
+    "metal": ("brass", "nickel", "tungsten-carbide"),
+    "metallic paint": ("blue-metallic-paint2", "gold-metallic-paint", "silver-metallic-paint"),
+    "glossy plastic": ("red-specular-plastic", "yellow-phenolic", "green-acrylic"),
+    "paint, wood": ("dark-red-paint", "cherry-235", "pearl-paint"),
+    "rubber, matte plastic": ("blue-rubber", "neoprene-rubber", "yellow-matte-plastic"),
+    "fabric": ("red-fabric", "light-brown-fabric", "pink-felt"),
+}
+"""Materials of each kind, the first of them for the check."""
+SMALL = Grid.merl(90, 30, 36)
+
+
+def main(arguments: Sequence[str]) -> None:
+    """The check, or the table."""
+    if missing := missing_blender():
+        print(f"Not checked: Blender {BLENDER} (bpy, Python 3.13) cannot be had here: {missing}")
+        return
+    with tempfile.TemporaryDirectory() as folder:
+        work = Path(folder)
+        build(work / "addon.zip")
+        if arguments[:1] == ["--table"]:
+            for where in arguments[1:] or [LIBRARY]:
+                print_table(where, measured(work, open_library(where), KINDS))
+            return
+        write_files(work)
+        in_blender("check", work)
+        for name, errors in measured(work, open_library(LIBRARY), one_of_each()).items():
+            print(f"{name}: {errors}")
+
+
+def missing_blender() -> str:
+    """Why there is no Blender, in a line; nothing where there is one."""
+    said = blender("-c", "import bpy")
+    return (said.stderr.strip().splitlines() or ["no reason given"])[-1] if said.returncode else ""
+
+
+def blender(*words: str, **options: str) -> subprocess.CompletedProcess[str]:
+    """Run Python in Blender's environment."""
+    start = [UV, "run", "--quiet", "--no-project", "--python", "3.13", "--with", f"bpy=={BLENDER}"]
+    return subprocess.run([*start, "python", *words], capture_output=True, text=True, env={**os.environ, **options})  # fmt: skip
+
+
+def in_blender(what: str, folder: Path) -> None:
+    """Run `in_blender`; what it prints for us, and its failure, are ours."""
+    options = {"BLENDER_USER_RESOURCES": str(folder / "user"), "PYTHONWARNINGS": "ignore"}
+    done = blender(str(ROOT / "tests" / "in_blender.py"), what, str(folder), **options)
+    print(*(line[5:] for line in done.stdout.splitlines() if line.startswith("SAID ")), sep="\n")
+    if done.returncode:
+        sys.exit(f"{done.stdout[-2000:]}\n{done.stderr[-4000:]}")
+
+
+def write_files(folder: Path) -> None:
+    """A file of every format that the extension imports, and the command for those it hands over."""
+    library = open_library(LIBRARY)
+    brdf = library.brdf("gold-paint")
+    write_brdf(folder / "gold.binary", brdf)
+    write_brdf(folder / "gold.bsdf", brdf)
+    (folder / "network.h5").write_bytes(keras(nbrdf_layers()))
+    write_recipe(folder / "mix.recipe.json", library, Recipe.of(library, {"gold-paint": 0.5, "teflon": 0.5}))  # fmt: skip
+    write_scenes(folder, open_materials([f"{LIBRARY}:{name}" for name in STOPS]), "blender")
+    (folder / "command").write_text(str(Path(sys.executable).with_name("halfway")))
+
+
+def one_of_each() -> dict[str, tuple[str, ...]]:
+    """The first material of each kind."""
+    return {kind: names[:1] for kind, names in KINDS.items()}
+
+
+def measured(
+    folder: Path, library: Library, kinds: dict[str, tuple[str, ...]]
+) -> dict[str, dict[str, dict[str, float]]]:
+    """For each kind and node tree the mean errors of what Cycles renders."""
+    names = [name for names in kinds.values() for name in names]
+    tables = {name: library.row(library.index(name)).reshape(3, *library.grid.shape) for name in names}  # fmt: skip
+    np.savez(folder / "tables.npz", grid=np.array(library.grid.shape), **tables)
+    in_blender("measure", folder)
+    found = json.loads((folder / "errors.json").read_text())
+    means: dict[str, dict[str, dict[str, float]]] = defaultdict(dict)
+    for kind, members in kinds.items():
+        for tree in found[members[0]]:
+            rows = [found[name][tree] for name in members]
+            means[kind][tree] = {key: float(np.mean([row[key] for row in rows])) for key in rows[0]}
+    return means
+
+
+def print_table(where: str, means: dict[str, dict[str, dict[str, float]]]) -> None:
+    """In Markdown: on the lit sphere dB and mean error, in the furnace the largest error of the albedo."""
+    trees = list(next(iter(means.values())))
+    print(f"\n{where}\n\n| kind | " + " | ".join(trees) + " |\n|---|" + "---|" * len(trees))
+    for kind, row in means.items():
+        cells = [_cell(row[tree]) for tree in trees]
+        print(f"| {kind} | " + " | ".join(cells) + " |")
+
+
+def _cell(errors: dict[str, float]) -> str:
+    furnace = f", {errors['furnace']:.3f}" if "furnace" in errors else ""
+    return f"{errors['psnr']:.1f} dB, {errors['l1']:.1%}{furnace}"
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])
