@@ -45,7 +45,8 @@ def to_materialx(fit: Fit) -> str:
     name = identifier(fit.name or "material")
     surface = document.addNode(NODES[fit.model_name], f"{name}_surface", "surfaceshader")
     parameters = fit.model.parameters()
-    if turn := parameters.pop("tangent_rotation", 0.0):
+    turn = parameters.pop("tangent_rotation", 0.0)
+    if isinstance(turn, float) and turn:
         surface.setConnectedNode("geometry_tangent", _turned_tangent(document, name, turn))
     for parameter, value in parameters.items():
         colour = isinstance(value, list)

@@ -94,7 +94,7 @@ class Cycles(AnalyticModel):
 
 def _lobe(theta_h: Angle, cos_i: Angle, cos_o: Angle, roughness: float) -> Angle:
     a = roughness**2
-    return ggx(theta_h, a) * smith_correlated(cos_i, cos_o, a) / (4 * cos_i * cos_o)
+    return ggx(theta_h, a) * smith_correlated(cos_i, cos_o, a, a) / (4 * cos_i * cos_o)
 
 
 def _share(cos_d: Angle, ior: float) -> Angle:

@@ -5,6 +5,7 @@ A model is a `Brdf`: it is evaluated, tabulated, checked and rendered as any oth
 
 from abc import abstractmethod
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
@@ -36,6 +37,7 @@ ANY_TURN = Range(-np.pi, np.pi, 0)
 """Of a direction along the surface, in radians, counter-clockwise from the tangent; half a turn is none."""
 
 
+@dataclass(frozen=True, eq=False)
 class AnalyticModel(IsotropicModel):
     """A model of renderers: a frozen dataclass of numbers and colours (shape (3,), linear RGB)."""
 

@@ -117,5 +117,5 @@ def _title(names: Sequence[str], candidate: Candidate) -> str:
     weights, order = candidate.weighed
     mean = weights.mean(axis=0)
     largest = np.argsort(-mean, kind="stable")[:2]
-    title = "-".join(names[i] for i in largest if mean[i] > 0)
+    title = "-".join(names[int(i)] for i in largest if mean[i] > 0)
     return Permuted.name_of(title, order)
