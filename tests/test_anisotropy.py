@@ -11,7 +11,10 @@ import halfway
 from halfway import Grid, TabularBrdf, directional_albedo, mix, open_library, tabulate
 from halfway.brdf import anisotropy, check, fresnel, repair
 from halfway.brdf.albedo_operator import albedos
+from halfway.errors import OutputError
+from halfway.export import write_route
 from halfway.fit.microfacet import ggx, smith_correlated
+from halfway.formats import read_brdf, write_merl
 from halfway.halfdiff import HalfDiff, from_half_diff, to_half_diff, turn
 from halfway.instruments import read_table
 from halfway.library import ProceduralLibrary, build_library
@@ -198,8 +201,6 @@ def test_a_route_goes_from_brushed_metal_to_paint():
 
 def test_libraries_of_both_kinds_are_built_and_sampled(tmp_path):
     flat = TabularBrdf(np.array(random_tables(1, Grid.merl(6, 4, 5))["material-0"].values), Grid.merl(6, 4, 5))  # fmt: skip
-    from halfway.formats import write_merl
-
     write_merl(tmp_path / "mine.binary", flat)
     built = build_library(
         ["builtin:anisotropic", tmp_path / "mine.binary"],
@@ -211,6 +212,16 @@ def test_libraries_of_both_kinds_are_built_and_sampled(tmp_path):
     assert_allclose(
         built.library.brdf("mine").values, tabulate(flat, built.library.grid).values, rtol=1e-6
     )
+
+
+def test_no_merl_files_are_written_of_a_route_among_them(tmp_path):
+    library = ProceduralLibrary("metals", {"a": METAL, "b": MODELS["denim"]}, grid=GRID)
+    found = halfway.route(library, "a", "b", space="linear", pace="uniform")
+    with pytest.raises(OutputError, match="a MERL file holds theta_h"):
+        write_route(tmp_path / "out", found, [0.5], library, format="merl")
+    write_route(tmp_path / "out", found, [0.5], library, format="zarr")
+    again = read_brdf(tmp_path / "out" / "tables.zarr")
+    assert_allclose(again.values, mix(library, found.recipe(0.5)).values, rtol=2**-10)
 
 
 def test_its_own_grid_knows_that_half_a_turn_is_enough():
