@@ -20,7 +20,7 @@ from ..batch import Batch, Checksum
 from ..brdf import TabularBrdf, half_scale
 from ..errors import OutputError
 from ..files import replacing
-from ..formats import merl_bytes, require_merl_shaped, write_brdf, zarr_tables
+from ..formats import encode_header, merl_bytes, write_brdf, zarr_tables
 from ..library import Library, is_stored
 from ..locations import Location, absolute, name_in
 from ..recipes import Mixer, Recipe
@@ -119,7 +119,7 @@ def _files(
         case "none":
             return _Files([], 0, write_brdf, {})
         case "merl":
-            require_merl_shaped(grid, f"{library.name}'s table")
+            encode_header(grid)  # refuses a grid that no MERL file holds
             names = [f"{stem}.binary" for stem in stems]
             return _Files(names, merl_bytes(grid.shape), write_brdf, {})
         case "bsdf":

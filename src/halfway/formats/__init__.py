@@ -3,7 +3,7 @@
 from . import spectra, zarr_tables
 from .content import merl_bytes
 from .find import Skipped, SourceBrdf, find_brdfs, read_brdf, read_nbrdf_archive
-from .merl import MerlFile, encode_header, read_merl, require_merl_shaped, write_merl, write_samples
+from .merl import MerlFile, encode_header, read_merl, write_merl, write_samples
 from .nbrdf import NeuralBrdf, read_nbrdf
 from .rgl import RglBrdf
 from .rgl_reader import read_rgl
@@ -26,7 +26,6 @@ __all__ = [
     "read_nbrdf",
     "read_nbrdf_archive",
     "read_rgl",
-    "require_merl_shaped",
     "spectra",
     "write_brdf",
     "write_merl",
