@@ -9,9 +9,12 @@ from strategies import random_tables
 
 import halfway
 from halfway import Grid, TabularBrdf, directional_albedo, mix, open_library, tabulate
-from halfway.brdf import anisotropy, check, fresnel, repair
+from halfway.brdf import check, fresnel, repair
 from halfway.brdf.albedo_operator import albedos
+from halfway.errors import OutputError
+from halfway.export import write_route
 from halfway.fit.microfacet import ggx, smith_correlated
+from halfway.formats import read_brdf, write_merl
 from halfway.halfdiff import HalfDiff, from_half_diff, to_half_diff, turn
 from halfway.instruments import read_table
 from halfway.library import ProceduralLibrary, build_library
@@ -57,7 +60,7 @@ def test_an_isotropic_table_is_lifted_as_it_is():
     assert_array_equal(lifted.values, np.repeat(flat.values[:, :, None], 8, axis=2))
     assert_allclose(lifted.eval(*pairs()), flat.eval(*pairs()), rtol=1e-5)
     assert_allclose(lifted.turned_mean().values, flat.values, rtol=1e-6)
-    assert_allclose(anisotropy(lifted), 0, atol=1e-6)
+    assert_allclose(lifted.anisotropy(), 0, atol=1e-6)
 
 
 @pytest.mark.parametrize("rows", [slice(2, 5), (slice(1, 2), slice(3, 6)), (slice(4, 9, 1), slice(0, 8), slice(2, 3))])  # fmt: skip
@@ -87,7 +90,7 @@ def test_the_mean_over_turns_of_a_table_is_that_of_its_measured_cells():
 
 
 def test_the_more_the_slopes_differ_the_more_anisotropic():
-    found = [anisotropy(Microfacets((Lobe(a, 0.5),))) for a in (0.5, 0.4, 0.2, 0.1)]
+    found = [Microfacets((Lobe(a, 0.5),)).anisotropy() for a in (0.5, 0.4, 0.2, 0.1)]
     assert_allclose(found[0], 0, atol=1e-12)
     assert (np.diff(found) > 0).all()
 
@@ -192,14 +195,12 @@ def test_a_route_goes_from_brushed_metal_to_paint():
     start, stop = route.recipe(0.0), route.recipe(1.0)
     assert (start.names, stop.names) == (("brushed-steel",), ("alum-bronze",))
     mixed = mix(library, route.recipe(0.5))
-    assert anisotropy(library.brdf("brushed-steel")) > anisotropy(mixed) > 0.01
+    assert library.brdf("brushed-steel").anisotropy() > mixed.anisotropy() > 0.01
     assert (albedos(mixed, np.radians([0.0, 60.0])) <= 1.01).all()
 
 
 def test_libraries_of_both_kinds_are_built_and_sampled(tmp_path):
     flat = TabularBrdf(np.array(random_tables(1, Grid.merl(6, 4, 5))["material-0"].values), Grid.merl(6, 4, 5))  # fmt: skip
-    from halfway.formats import write_merl
-
     write_merl(tmp_path / "mine.binary", flat)
     built = build_library(
         ["builtin:anisotropic", tmp_path / "mine.binary"],
@@ -211,6 +212,16 @@ def test_libraries_of_both_kinds_are_built_and_sampled(tmp_path):
     assert_allclose(
         built.library.brdf("mine").values, tabulate(flat, built.library.grid).values, rtol=1e-6
     )
+
+
+def test_no_merl_files_are_written_of_a_route_among_them(tmp_path):
+    library = ProceduralLibrary("metals", {"a": METAL, "b": MODELS["denim"]}, grid=GRID)
+    found = halfway.route(library, "a", "b", space="linear", pace="uniform")
+    with pytest.raises(OutputError, match="a MERL file holds theta_h"):
+        write_route(tmp_path / "out", found, [0.5], library, format="merl")
+    write_route(tmp_path / "out", found, [0.5], library, format="zarr")
+    again = read_brdf(tmp_path / "out" / "tables.zarr")
+    assert_allclose(again.values, mix(library, found.recipe(0.5)).values, rtol=2**-10)
 
 
 def test_its_own_grid_knows_that_half_a_turn_is_enough():

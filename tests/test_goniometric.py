@@ -173,6 +173,8 @@ def test_convert_takes_a_scale(tmp_path):
     words = ["convert", str(tmp_path / "cloth.bin"), str(tmp_path / "cloth.zarr"), "--grid", "6x8x4x4"]  # fmt: skip
     done = CliRunner().invoke(app, [*words, "--scale", "0.5"])
     assert done.exit_code == 0, done.output
+    assert done.stderr.startswith(f"{tmp_path / 'cloth.zarr'}: cloth, 6 x 8 x 4 x 4 cells, ")
+    assert "dB of its own values on a lit sphere" in done.stderr
     plain = tabulate(read_brdf(tmp_path / "cloth.bin"), GRID)
     assert_allclose(read_brdf(tmp_path / "cloth.zarr").values, plain.values / 2, rtol=1e-6)
     refused = CliRunner().invoke(app, [*words, "--scale", "-1", "--force"])

@@ -9,7 +9,6 @@ from rgl_files import UP, directions, fields, plugin_values, viewers
 from typer.testing import CliRunner
 
 from halfway import Grid, tabulate
-from halfway.brdf import anisotropy
 from halfway.cli import app
 from halfway.errors import FormatError
 from halfway.formats import find_brdfs, read_brdf
@@ -162,14 +161,14 @@ def test_info_says_how_anisotropic_a_file_is(brdf_of, tmp_path):
     aniso = fields(np.random.default_rng(5), n_phi=5)
     brdf = brdf_of({**aniso, "description": np.frombuffer(b"silk\x1b[2J", np.uint8)})
     done = CliRunner().invoke(app, ["info", str(tmp_path / "clay_rgb.bsdf")])
-    said = f"clay_rgb: an RGL material (anisotropic by {anisotropy(brdf):.0%}), 3 x 5 directions, RGB of the file, silk[2J"
+    said = f"clay_rgb: an RGL material (anisotropic by {brdf.anisotropy():.0%}), 3 x 5 directions, RGB of the file, silk[2J"
     assert done.stdout.startswith(said), done.output
     assert "\x1b" not in done.stdout
 
 
 def test_a_material_that_does_not_vary_is_not_called_anisotropic(brdf_of):
     brdf = brdf_of(fields(n_phi=5))
-    assert anisotropy(brdf) < 1e-12
+    assert brdf.anisotropy() < 1e-12
     assert not brdf.is_isotropic
 
 

@@ -3,7 +3,6 @@
     HalfwayError
     |- FormatError       a file is not what its format says
     |- LibraryError      a library cannot be built, opened or asked for this
-    |- AnisotropyError   a material that depends on phi_h, where only others can be handled
     |- RecipeError       weights that are no recipe
     |- SpaceError        a space cannot be made, or a place in it not be reached
     |  `- OutsideHullError   the place is not between the materials
@@ -39,10 +38,6 @@ class FormatError(HalfwayError):
 
 class LibraryError(HalfwayError):
     """A library cannot be built or opened, or has no such material."""
-
-
-class AnisotropyError(HalfwayError):
-    """A material that changes as it turns about its normal, where only those that do not can be handled yet."""
 
 
 class RecipeError(HalfwayError):

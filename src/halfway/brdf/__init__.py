@@ -3,8 +3,7 @@
 from . import gloss, metrics, quadrature
 from .albedo import directional_albedo
 from .albedo_operator import albedos
-from .anisotropy import anisotropy
-from .brdf import Brdf, pieces, require_isotropic
+from .brdf import Brdf
 from .check import ValidityCard, check
 from .formula import IsotropicModel
 from .fresnel import fresnel
@@ -13,7 +12,7 @@ from .metrics import difference
 from .quality import Quality, lit_sphere, quality
 from .reciprocal import Measurement
 from .repair import repair
-from .table import TabularBrdf, blend, half_scale, own_grid, tabulate
+from .table import TabularBrdf, half_scale, tabulate
 
 __all__ = [
     "Brdf",
@@ -23,8 +22,6 @@ __all__ = [
     "TabularBrdf",
     "ValidityCard",
     "albedos",
-    "anisotropy",
-    "blend",
     "check",
     "difference",
     "directional_albedo",
@@ -34,11 +31,8 @@ __all__ = [
     "layout_of",
     "lit_sphere",
     "metrics",
-    "own_grid",
-    "pieces",
     "quadrature",
     "quality",
     "repair",
-    "require_isotropic",
     "tabulate",
 ]

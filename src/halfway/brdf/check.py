@@ -23,12 +23,11 @@ from .._types import Directions, Mask, Table, Values
 from ..colour import LUMINANCE
 from ..halfdiff import Grid, from_half_diff
 from .albedo_operator import albedos
-from .anisotropy import anisotropy
 from .brdf import Brdf
 from .gloss import Profile
 from .layout import MASK_TOLERANCE, horizon, layout_of
 from .quadrature import spread_angles
-from .table import TabularBrdf, own_grid, tabulate
+from .table import TabularBrdf, tabulate
 
 RECIPROCITY_TOLERANCE = 0.01
 ALBEDO_TOLERANCE = 0.005
@@ -63,7 +62,7 @@ class ValidityCard:
     bilateral_error: float
     """The same for a pair and its mirror image. No law: a brushed or woven material may tell them apart."""
     anisotropy: float
-    """How much the values vary as the surface turns about its normal (`halfway.brdf.anisotropy`); 0 if isotropic."""
+    """How much the values vary as the surface turns about its normal (`Brdf.anisotropy`); 0 if isotropic."""
     max_albedo: float
     """Largest of the channels and azimuths, for light from 0 to 80 degrees."""
     max_albedo_degrees: float
@@ -129,7 +128,7 @@ def check(brdf: Brdf, *, grid: Grid | None = None) -> ValidityCard:
 
     By default that is the MERL grid, or `Grid.anisotropic` for what depends on phi_h.
     """
-    table = brdf if isinstance(brdf, TabularBrdf) else tabulate(brdf, grid or own_grid(brdf))
+    table = brdf if isinstance(brdf, TabularBrdf) else tabulate(brdf, grid or brdf.own_grid)
     by_channel = ~np.isnan(table.values)
     measured = np.asarray(by_channel.all(axis=0))
     mask = table.grid.mask()
@@ -154,7 +153,7 @@ def check(brdf: Brdf, *, grid: Grid | None = None) -> ValidityCard:
         n_below_horizon=int((measured & ~mask).sum()),
         reciprocity_error=_relative_difference(swapped, at_pairs),
         bilateral_error=_relative_difference(mirrored, at_pairs),
-        anisotropy=anisotropy(brdf),
+        anisotropy=brdf.anisotropy(),
         max_albedo=float(steep[worst]),
         max_albedo_degrees=float(STEEP_DEGREES[worst]),
         max_albedo_grazing=float(grazing.max()),

@@ -8,7 +8,7 @@ import numpy as np
 
 from .._types import Angle, Directions, Mask, Part, Table, Values
 from ..halfdiff import Grid, HalfDiff, cosines, to_half_diff
-from .brdf import Brdf, pieces
+from .brdf import Brdf
 
 
 class IsotropicModel(Brdf):
@@ -53,7 +53,7 @@ class IsotropicModel(Brdf):
         lit = grid.mask()[rows]
         samples = np.full((*shape, *lit.shape), np.nan, np.float32)
         n_cells = self.cells_in_cache * 3 // max(1, math.prod(shape))
-        for piece, centres in pieces(grid, rows, n_cells):
+        for piece, centres in self._pieces(grid, rows, n_cells):
             values = self._at_centres(centres, lit[piece])
             np.copyto(samples[(*(slice(None) for _ in shape), piece)], values, where=lit[piece])
         return samples

@@ -15,11 +15,10 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from jaxtyping import Float32, Float64
 
 from .._types import Directions, Part, Table, Values
 from ..errors import FormatError
-from ..halfdiff import MERL, Corners, Grid
+from ..halfdiff import Grid
 from .brdf import Brdf
 
 Interpolation = Literal["trilinear", "floor"]
@@ -94,13 +93,17 @@ class TabularBrdf(Brdf):
         values = np.empty((len(above_i), 3))
         for start in range(0, len(values), _CHUNK):
             chunk = slice(start, start + _CHUNK)
-            values[chunk] = blend(self.values, lookup(above_i[chunk], above_o[chunk])).T
+            values[chunk] = lookup(above_i[chunk], above_o[chunk]).blend(self.values).T
         result = np.zeros((*lit.shape, 3))
         result[lit] = values
         return result
 
     def fingerprint(self) -> bytes:
         return hashlib.sha256(np.ascontiguousarray(self.values).data).digest()
+
+    @property
+    def own_grid(self) -> Grid:
+        return self.grid
 
     def scaled(self, factor: float) -> "TabularBrdf":
         return TabularBrdf(self.values * np.float32(factor), self.grid, name=self.name)
@@ -121,25 +124,6 @@ class TabularBrdf(Brdf):
         return self.values[(slice(None), *(rows if isinstance(rows, tuple) else (rows,)))]
 
 
-def blend(values: Table, corners: Corners) -> Float64[np.ndarray, "3 n"]:
-    """The weighted mean of the samples at the corners that are measured; NaN where none is."""
-    samples = np.take(values.reshape(3, -1), corners.cells, axis=1)
-    blended = np.einsum("cjn,jn->cn", samples, corners.weights)
-    partly = np.isnan(blended).any(axis=0)
-    if partly.any():
-        blended[:, partly] = _renormalised(samples[..., partly], corners.weights[:, partly])
-    return blended
-
-
-def _renormalised(
-    samples: Float32[np.ndarray, "3 n_corners n"], weights: Float64[np.ndarray, "n_corners n"]
-) -> Float64[np.ndarray, "3 n"]:
-    """The blend of the corners that are measured; NaN where none is."""
-    counted = np.where(np.isnan(samples), 0.0, weights)
-    with np.errstate(invalid="ignore"):
-        return (counted * np.nan_to_num(samples)).sum(axis=1) / counted.sum(axis=1)
-
-
 LARGEST_HALF = 60_000.0
 """A half float reaches 65,504; a value may be rounded up and must stay below."""
 
@@ -150,13 +134,6 @@ def half_scale(largest: float) -> float:
     A power of two, so that dividing by it loses nothing; 11 significant bits are at most .05 % off.
     """
     return 2.0 ** max(0, math.ceil(math.log2(largest / LARGEST_HALF))) if largest > 0 else 1.0
-
-
-def own_grid(brdf: Brdf) -> Grid:
-    """A table's grid; the MERL grid of another isotropic material, the usual one with phi_h of one that is not."""
-    if isinstance(brdf, TabularBrdf):
-        return brdf.grid
-    return MERL if brdf.is_isotropic else Grid.anisotropic()
 
 
 def tabulate(brdf: Brdf, grid: Grid, *, name: str = "") -> TabularBrdf:

@@ -57,9 +57,7 @@ def convert(
     spectral: Annotated[
         bool, typer.Option(help="A .bsdf with spectra, for pbrt-v4 and spectral Mitsuba.")
     ] = False,
-    scale: Annotated[
-        float, typer.Option(help="Multiply the values: some files do not say their unit.")
-    ] = 1.0,
+    scale: options.Scale = 1.0,
     library: options.Library = "",
     force: options.Force = False,
 ) -> None:
@@ -82,8 +80,7 @@ def convert(
     if out is None or (output and target):
         raise ArgumentError("convert takes IN and OUT: expected one file or folder to write.")
     materials, cells = open_materials([source], library=library), parse_grid(grid)
-    if scale != 1:
-        materials = [material.scaled(scale) for material in materials]
+    materials = [material.scaled(scale) for material in materials] if scale != 1 else materials
     if not out.suffix:
         with filling(out, "convert", force=force) as folder:
             suffix = f".{format}"

@@ -13,6 +13,7 @@ from collections.abc import Sequence
 from dataclasses import asdict
 from pathlib import Path
 
+from ..brdf import Brdf, TabularBrdf, lit_sphere, quality
 from ..errors import OutputError
 from ..files import replacing
 from ..formats import write_brdf, write_rgl
@@ -56,13 +57,21 @@ def write_material(
         fitted = fit(brdf, MODEL_OF[suffix], name=material.label)
         write_fit(path, fitted)
         return f"{fitted.name}, {fitted.summary}"
-    table = material.table(grid)
+    brdf, table = material.load(), material.table(grid)
     write_brdf(path, table)
     if beside := recipe_beside(path, material):
         assert material.library is not None
         assert material.recipe is not None
         write_recipe(beside, material.library, material.recipe)
-    return f"{material.label}, {table.grid} cells"
+    return f"{material.label}, {table.grid} cells{_kept(brdf, table)}"
+
+
+def _kept(brdf: Brdf, table: TabularBrdf) -> str:
+    """How near a table is to an anisotropic material that is none: coarse grids, and those without phi_h, keep less."""
+    if isinstance(brdf, TabularBrdf) or brdf.is_isotropic:
+        return ""
+    found = quality(lit_sphere(table), lit_sphere(brdf))
+    return f", {found.psnr:.1f} dB of its own values on a lit sphere"
 
 
 def recipe_beside(path: Path, material: NamedBrdf) -> Path | None:

@@ -20,7 +20,7 @@ from ..batch import Batch, Checksum
 from ..brdf import TabularBrdf, half_scale
 from ..errors import OutputError
 from ..files import replacing
-from ..formats import merl_bytes, write_brdf, zarr_tables
+from ..formats import encode_header, merl_bytes, write_brdf, zarr_tables
 from ..library import Library, is_stored
 from ..locations import Location, absolute, name_in
 from ..recipes import Mixer, Recipe
@@ -28,7 +28,8 @@ from ..tasks import HERE, Work
 
 FORMATS = ("none", "merl", "bsdf", "zarr")
 BSDF_BYTES = 18_000_000
-"""Of the largest file that `halfway.formats.write_brdf` makes of its own accord."""
+ANISOTROPIC_BSDF_BYTES = 175_000_000
+"""Of the largest files that `halfway.formats.write_brdf` makes of its own accord."""
 
 
 class Written(NamedTuple):
@@ -118,10 +119,12 @@ def _files(
         case "none":
             return _Files([], 0, write_brdf, {})
         case "merl":
+            encode_header(grid)  # refuses a grid that no MERL file holds
             names = [f"{stem}.binary" for stem in stems]
             return _Files(names, merl_bytes(grid.shape), write_brdf, {})
         case "bsdf":
-            return _Files([f"{stem}.bsdf" for stem in stems], BSDF_BYTES, write_brdf, {})
+            largest = BSDF_BYTES if grid.is_isotropic else ANISOTROPIC_BSDF_BYTES
+            return _Files([f"{stem}.bsdf" for stem in stems], largest, write_brdf, {})
         case "zarr":
             scale = half_scale(_largest(recipes, library))
             return _Files(

@@ -32,7 +32,7 @@ from typing import NamedTuple
 import numpy as np
 
 from .._types import Angle, Directions, Indices, Table, Values
-from ..brdf import Measurement, blend
+from ..brdf import Measurement
 from ..errors import FormatError
 from ..halfdiff import Corners
 from .content import CSAIL_HEADER, UTIA_BYTES
@@ -101,7 +101,7 @@ class GoniometricBrdf(Measurement):
         values = np.empty((len(above_i), 3))
         for start in range(0, len(values), _CHUNK):
             chunk = slice(start, start + _CHUNK)
-            values[chunk] = blend(self.values, self._corners(above_i[chunk], above_o[chunk])).T
+            values[chunk] = self._corners(above_i[chunk], above_o[chunk]).blend(self.values).T
         result = np.zeros((*lit.shape, 3))
         result[lit] = values
         return result

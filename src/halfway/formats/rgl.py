@@ -25,7 +25,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .._types import Directions, Values
-from ..brdf import Measurement, anisotropy
+from ..brdf import Measurement
 from .rgl_warp import Interpolant, Warp, slices
 
 _BLOCK = 1 << 14  # pairs evaluated at once: the temporaries stay in the cache
@@ -57,7 +57,7 @@ class RglBrdf(Measurement):
 
     @property
     def about(self) -> str:
-        kind = "isotropic" if self.is_isotropic else f"anisotropic by {anisotropy(self):.0%}"
+        kind = "isotropic" if self.is_isotropic else f"anisotropic by {self.anisotropy():.0%}"
         size = f"{len(self.theta_i)} x {len(self.phi_i)} directions"
         description = "".join(c for c in self.description if c.isprintable()).strip()
         return ", ".join(

@@ -26,9 +26,9 @@ from itertools import product
 from typing import NamedTuple
 
 import numpy as np
-from jaxtyping import Float64, Int
+from jaxtyping import Float32, Float64, Int
 
-from .._types import Angle, Directions, Indices, Mask, Part
+from .._types import Angle, Directions, Indices, Mask, Part, Table
 from ..errors import FormatError
 from .angles import HalfDiff, cosines, from_half_diff, to_half_diff
 
@@ -73,6 +73,24 @@ class Corners(NamedTuple):
     weights: Float64[
         np.ndarray, "..."
     ]  # (n_corners, ...), non-negative, summing to 1 over the first axis
+
+    def blend(self, values: Table) -> Float64[np.ndarray, "3 n"]:
+        """The weighted mean of the samples at the corners that are measured; NaN where none is."""
+        samples = np.take(values.reshape(3, -1), self.cells, axis=1)
+        blended = np.einsum("cjn,jn->cn", samples, self.weights)
+        partly = np.isnan(blended).any(axis=0)
+        if partly.any():
+            blended[:, partly] = _renormalised(samples[..., partly], self.weights[:, partly])
+        return blended
+
+
+def _renormalised(
+    samples: Float32[np.ndarray, "3 n_corners n"], weights: Float64[np.ndarray, "n_corners n"]
+) -> Float64[np.ndarray, "3 n"]:
+    """The blend of the corners that are measured; NaN where none is."""
+    counted = np.where(np.isnan(samples), 0.0, weights)
+    with np.errstate(invalid="ignore"):
+        return (counted * np.nan_to_num(samples)).sum(axis=1) / counted.sum(axis=1)
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ..brdf import Brdf, TabularBrdf, own_grid, tabulate
+from ..brdf import Brdf, TabularBrdf, tabulate
 from ..errors import ControlError
 from ..library import open_library
 from ..recipes import Recipe, mix, open_materials
@@ -180,7 +180,7 @@ def table_of(what: Brdf | Recipe | str, *, library: str = "") -> TabularBrdf:
         case TabularBrdf():
             return what
         case Brdf():
-            return tabulate(what, own_grid(what))
+            return tabulate(what, what.own_grid)
         case Recipe():
             return mix(open_library(library or what.library.address or what.library.name), what)
         case str():

@@ -34,7 +34,7 @@ import numpy as np
 from jaxtyping import Float32
 
 from .._types import Angle, Directions, Part, Table, Values
-from ..brdf import Brdf, pieces
+from ..brdf import Brdf
 from ..halfdiff import Grid, HalfDiff, from_half_diff, to_half_diff, turn
 
 Colour = tuple[float, float, float]
@@ -79,7 +79,7 @@ class AnisotropicModel(Brdf):
     ) -> Float32[np.ndarray, "3 N *part"]:
         lit = grid.mask()[rows]
         samples = np.full((3, len(brdfs), *lit.shape), np.nan, np.float32)
-        for piece, centres in pieces(grid, rows, cls.cells_in_cache):
+        for piece, centres in cls._pieces(grid, rows, cls.cells_in_cache):
             wi, wo = from_half_diff(centres)
             above = (wi[..., 2:] > 0) & (wo[..., 2:] > 0)
             wi, wo = (np.where(above, w, [0.0, 0.0, 1.0]) for w in (wi, wo))

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..brdf import Brdf, TabularBrdf, directional_albedo, own_grid, tabulate
+from ..brdf import Brdf, TabularBrdf, directional_albedo, tabulate
 from ..errors import RecipeError
 from ..halfdiff import Grid
 from ..library import Library
@@ -57,7 +57,7 @@ class NamedBrdf(NamedTuple):
         brdf = self.load()
         if isinstance(brdf, TabularBrdf) and grid in (None, brdf.grid):
             return brdf
-        return tabulate(brdf, grid or own_grid(brdf), name=self.label)
+        return tabulate(brdf, grid or brdf.own_grid, name=self.label)
 
     def facts(self) -> dict[str, Any]:
         """What it is, for people and programs, as JSON."""

@@ -19,7 +19,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from ..brdf import TabularBrdf, own_grid
+from ..brdf import TabularBrdf
 from ..errors import RecipeError
 from ..formats import read_brdf, zarr_tables
 from ..halfdiff import common_grid
@@ -215,7 +215,7 @@ def _with_files(library: Library, names: Sequence[str], files: Sequence[str]) ->
     read = {name: read_brdf(name) for name in files}
     brdfs = {name: read[name] if name in read else library.brdf(name) for name in names}
     grids = (
-        own_grid(brdf)
+        brdf.own_grid
         for brdf in brdfs.values()
         if isinstance(brdf, TabularBrdf) or not brdf.is_isotropic
     )

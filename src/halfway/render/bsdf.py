@@ -29,7 +29,7 @@ import drjit as dr
 import mitsuba as mi
 import numpy as np
 
-from ..brdf import TabularBrdf, own_grid, tabulate
+from ..brdf import TabularBrdf, tabulate
 from ..errors import RenderError
 from ..formats import read_brdf, spectra
 from ..halfdiff import Axis, Grid
@@ -253,7 +253,7 @@ def _read(props: Any) -> TabularBrdf:
         path = Path(str(file_resolver().resolve(props["filename"])))
         brdf = read_brdf(path)
         table = isinstance(brdf, TabularBrdf)
-        return brdf if table else tabulate(brdf, own_grid(brdf), name=path.stem)
+        return brdf if table else tabulate(brdf, brdf.own_grid, name=path.stem)
     raise RenderError(
         "halfway_table has neither a filename, nor a recipe, nor values: expected one of them."
     )
