@@ -65,7 +65,7 @@ class Sheet:
         angles = Angles(*(self.columns[angle] for angle in ANGLES))
         if "wavelength" in self.columns:
             colours = np.stack([self._colour(of_row == i) for i in range(len(first))])
-            wi, wo = Angles(*(angle[first] for angle in angles)).directions()
+            wi, wo = Angles(*(self.columns[angle][first] for angle in ANGLES)).directions()
             return Measurements(wi, wo, colours, weights[first], name)
         values = np.stack([self.columns[column] for column in names], axis=1)
         wi, wo = angles.directions()
