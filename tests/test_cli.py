@@ -18,7 +18,8 @@ from halfway.cli.library import skipped_lines
 from halfway.errors import HalfwayError
 from halfway.formats import Skipped, read_merl, write_merl
 from halfway.halfdiff import Grid
-from halfway.library import ProceduralLibrary
+from halfway.library import ProceduralLibrary, open_library
+from halfway.measurements import Angles
 
 GRID = Grid.merl(4, 3, 5)
 COMMANDS = [
@@ -26,6 +27,8 @@ COMMANDS = [
     "view",
     "route",
     "mix",
+    "recover",
+    "plan",
     "render",
     "report",
     "reproduce",
@@ -488,3 +491,38 @@ def test_two_routes_stand_below_each_other_and_side_by_side_when_they_move(run, 
 def test_the_version_is_the_packages(run):
     code, out, _ = run("--version")
     assert (code, out.strip()) == (0, importlib.metadata.version("halfway"))
+
+
+def test_a_plan_is_filled_in_and_recovered(run, lib, tmp_path):
+    code, out, talk = run("plan", lib, "-n", "12", "-o", "plan.csv", "--picture", "plan.png")
+    assert code == 0, talk
+    assert len(out.splitlines()) == 12
+    assert "plan.csv: fill in r, g, b. Next: halfway recover plan.csv" in talk
+    header, *rows = (tmp_path / "plan.csv").read_text().splitlines()
+    angles = np.radians([[float(cell) for cell in row.split(",")[:4]] for row in rows])
+    material = open_library(lib).brdf("material-3")
+    values = material.eval(*Angles(*angles.T).directions())
+    filled = [row.rstrip(",") + ",{},{},{}".format(*v) for row, v in zip(rows, values, strict=True)]
+    (tmp_path / "new.csv").write_text("\n".join([header, *filled]))
+
+    code, out, talk = run("recover", "new.csv", "--library", lib, "-o", "new.json", "--json")
+    assert code == 0, talk
+    assert json.loads(out)["weights"] == {"material-3": 1.0}
+    assert json.loads((tmp_path / "new.json").read_text())["weights"] == {"material-3": 1.0}
+    words = ["--as", "completion", "-o", "new.binary", "--picture", "sure.png"]
+    code, out, talk = run("recover", "new.csv", "--library", lib, *words)
+    assert code == 0, talk
+    assert "completion: " in talk
+    assert "new.binary: new completed" in talk
+    assert read_merl(tmp_path / "new.binary").grid == GRID
+    assert (tmp_path / "sure.png").stat().st_size > 10_000
+
+
+def test_what_cannot_be_recovered_is_one_line(run, lib, tmp_path):
+    (tmp_path / "bad.csv").write_text("theta_i,theta_o [deg]\n1,1")
+    code, _, talk = run("recover", "bad.csv", "--library", lib)
+    assert code == 1
+    assert talk.startswith("halfway: bad.csv line 1 names the column theta_i without a unit")
+    code, _, talk = run("recover", "bad.csv", "--as", "completion", "-o", "a.json")
+    assert code == 1
+    assert "a.json is a recipe, and a completion has none" in talk

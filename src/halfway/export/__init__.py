@@ -4,7 +4,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from . import figures
+    from . import figures, recovered
     from .fits import MODEL_OF, model_of, write_fit
     from .materials import recipe_beside, write_material, write_materials, write_recipe
     from .report import Report, TableRow, write_report
@@ -21,6 +21,7 @@ __all__ = [
     "figures",
     "model_of",
     "recipe_beside",
+    "recovered",
     "write_fit",
     "write_material",
     "write_materials",

@@ -13,6 +13,7 @@ from .._types import Directions
 from ..brdf import quadrature
 from ..halfdiff import from_half_diff
 from ..library import Library
+from ..measurements import Angles
 from ..tasks import HERE, Work
 
 _GOLDEN = (5**0.5 - 1) / 2
@@ -32,7 +33,12 @@ def spread_pairs(
     )
     wi, wo = from_half_diff(angles)
     lit = np.minimum(wi[:, 2], wo[:, 2]) > 0
-    return wi[lit], wo[lit]
+    if not isotropic:
+        return wi[lit], wo[lit]
+    seen = Angles.of(wi[lit], wo[lit])
+    # As an instrument is set: the light stays in one plane.
+    turned = np.mod(np.asarray(seen.phi_o) - seen.phi_i, 2 * np.pi)
+    return seen._replace(phi_i=np.zeros(lit.sum()), phi_o=turned).directions()
 
 
 def values_at(
@@ -49,4 +55,4 @@ def measured_in_all(values: Float[np.ndarray, "3 N n"]) -> np.ndarray:
 
 
 def _at(library: Library, wi: Directions, wo: Directions, i: int) -> Float64[np.ndarray, "3 n"]:
-    return library.brdf(library.names[i]).eval(wi, wo).T
+    return library.material(library.names[i]).eval(wi, wo).T

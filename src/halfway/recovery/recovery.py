@@ -43,8 +43,6 @@ class Completion(NamedTuple):
     low: TabularBrdf
     high: TabularBrdf
     """The ends of the interval."""
-    spread: Float32[np.ndarray, "3 ..."]
-    """Root mean square of what leave-one-out misses, natural logarithms: about the relative error where that is small."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,13 +68,13 @@ class Recovery:
         )
         blocks = list(work.run(block, library.blocks(), label="Completion"))
         parts = (np.concatenate(parts, axis=1) for parts in zip(*blocks, strict=True))
-        *values, apart = (part.reshape(3, *library.grid.shape) for part in parts)
+        values = (part.reshape(3, *library.grid.shape) for part in parts)
         labels = (f"{self.measurements.name} {what}".strip() for what in _LABELS)
         table, low, high = (
             TabularBrdf(each, library.grid, name=label)
             for each, label in zip(values, labels, strict=True)
         )
-        return Completion(table, low, high, apart)
+        return Completion(table, low, high)
 
     def mix(self, blend: Blend | str = Blend.LINEAR) -> Recipe:
         """The recipe that is nearest to what was measured."""
@@ -183,14 +181,13 @@ def _block(
     half: float,
     columns: slice,
 ) -> tuple[Float32[np.ndarray, "3 n"], ...]:
-    """The completion, the ends of its interval and its spread on one block."""
+    """The completion and the ends of its interval on one block."""
     cosines = cosines_at(library.grid, columns)
     batches = as_batches(mapped(library.columns(columns), cosines), channels)
     completed = (weights.astype(np.float32) @ batches).reshape(3, -1)
     apart = spread(left_out.astype(np.float32) @ batches - batches)
-    apart = np.broadcast_to(apart, completed.shape)
     values = (unmapped(completed + k * apart, cosines) for k in (0, -half, half))
-    return *(each.astype(np.float32) for each in values), apart.astype(np.float32)
+    return tuple(each.astype(np.float32) for each in values)
 
 
 def _weighed(

@@ -54,12 +54,9 @@ class Probes:
         batches = self.batches(channels)
         return left_out.astype(np.float32) @ batches - batches
 
-    def seen_error(self, channels: Channels, regression: Regression) -> float:
-        """The mean over pairs and rows of ``|ln(1 + f cos_i) - ln(1 + g cos_i)|``, each row recovered without its material."""
-        recovered = regression.left_out().astype(np.float32) @ self.batches(channels)
-        cos_i, _ = self.cosines
-        seen = as_batches(np.log1p(self.values * cos_i), channels)
-        return float(np.abs(np.log1p(unmapped(recovered, self.cosines) * cos_i) - seen).mean())
+    def seen(self, channels: Channels) -> Float32[np.ndarray, "b n_rows n_pairs"]:
+        """``ln(1 + f cos_i)``, in which errors count."""
+        return as_batches(np.log1p(self.values * self.cosines[0]), channels)
 
 
 @dataclass(frozen=True, eq=False)
@@ -188,6 +185,18 @@ def _best(
         Regression(known, materials, shares / shares.sum(), width, eta)
         for width, eta in product(WIDTHS, ETAS)
     ]
-    errors = list(work.run(partial(probes.seen_error, channels), tried, label="Leave one out"))
+    error = partial(_seen_error, probes.batches(channels), probes.seen(channels), probes.cosines)
+    errors = list(work.run(error, tried, label="Leave one out"))
     best = int(np.argmin(errors))
     return tried[best], errors[best]
+
+
+def _seen_error(
+    batches: Float32[np.ndarray, "b n_rows n_pairs"],
+    seen: Float32[np.ndarray, "b n_rows n_pairs"],
+    cosines: Cosines,
+    regression: Regression,
+) -> float:
+    """The mean over pairs and rows of ``|ln(1 + f cos_i) - ln(1 + g cos_i)|``, each row recovered without its material."""
+    recovered = regression.left_out().astype(np.float32) @ batches
+    return float(np.abs(np.log1p(unmapped(recovered, cosines) * cosines[0]) - seen).mean())
