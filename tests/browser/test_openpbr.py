@@ -68,6 +68,12 @@ MODELS = {
     "metal": OpenPbr(
         [0.9, 0.6, 0.3], base_metalness=1.0, specular_color=[0.9, 0.5, 0.7], specular_roughness=0.5
     ),
+    "brushed": OpenPbr(
+        [0.9, 0.6, 0.3],
+        base_metalness=0.7,
+        specular_roughness=0.5,
+        specular_roughness_anisotropy=0.8,
+    ),
     "velvet": OpenPbr(
         [0.3, 0.1, 0.1], fuzz_weight=0.7, fuzz_color=[0.9, 0.8, 0.4], fuzz_roughness=0.4
     ),
