@@ -17,6 +17,8 @@ SHOWN = {
     "spheres": ["green-acrylic"],
     "sphere": ["alum-bronze"],
 }
+BRUSHED = "hairline-steel", "shot-silk"
+"""Of the library of anisotropic models, each as it is and turned by a right angle."""
 TEN = ("teflon", "pink-felt", "light-brown-fabric", "blue-fabric", "cherry-235", "alum-bronze",
        "gold-metallic-paint", "green-acrylic", "tungsten-carbide", "chrome")  # fmt: skip
 STOPS = "cherry-235", "tungsten-carbide"
@@ -27,6 +29,7 @@ def main(where: str = "builtin:merl-abc") -> None:
     """Write the pictures, print the figures."""
     library = open_library(where)
     scenes(library)
+    brushed()
     qualities(library)
     lookups(library)
     route(library)
@@ -41,6 +44,20 @@ def scenes(library: Library) -> None:
         for name in SHOWN
     ]
     pictures.write(FOLDER / "scenes.webp", pictures.sheet(tiles, labels=list(SHOWN), columns=2))
+
+
+def brushed() -> None:
+    """The scene for anisotropic materials."""
+    library = open_library("builtin:anisotropic")
+    tiles, labels = [], []
+    for name in BRUSHED:
+        for turn in (0, 90):
+            renderer = Renderer(
+                "brushed", size=(400, 250), spp=256, denoise=True, turn_degrees=turn
+            )
+            tiles.append(renderer.picture(library.brdf(name)))
+            labels.append(f"{name}, turned by {turn}°" if turn else name)
+    pictures.write(FOLDER / "brushed.webp", pictures.sheet(tiles, labels=labels, columns=2))
 
 
 def qualities(library: Library) -> None:

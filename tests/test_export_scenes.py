@@ -6,7 +6,7 @@ import sys
 
 import numpy as np
 import pytest
-from numpy.testing import assert_allclose
+from numpy.testing import assert_allclose, assert_array_equal
 from pbrt_grammar import parse
 from typer.testing import CliRunner
 
@@ -14,7 +14,9 @@ from halfway import MERL, Grid, TabularBrdf, tabulate
 from halfway.cli import app
 from halfway.errors import OutputError
 from halfway.export.scenes import RENDERERS, write_scene
+from halfway.fit import OpenPbr
 from halfway.formats import read_brdf
+from halfway.formats.rgl_writer import RESOLUTIONS
 from halfway.formats.tensor_file import read_tensor_file
 from halfway.models import builtin
 from halfway.render import register
@@ -69,6 +71,26 @@ def test_mitsuba_renders_both_of_its_scenes(gold):
         assert picture[10:15, 10:15].mean() > 1.1 * picture[10:15, 17:22].mean()
     # One seed, two samplers: the rest is noise.
     assert psnr(stock, exact) > 25
+
+
+def test_an_anisotropic_material_takes_a_file_that_keeps_it_whole(tmp_path, monkeypatch):
+    """Both of Mitsuba's scenes, and that of pbrt-v4, whose files hold several azimuths."""
+    monkeypatch.setattr("halfway.formats.rgl_writer.RESOLUTIONS", RESOLUTIONS[:1])
+    grid = Grid.anisotropic(24, 12, 6, 12, period=np.pi)
+    model = OpenPbr([0.9, 0.6, 0.3], base_metalness=1.0, specular_roughness=0.5, specular_roughness_anisotropy=0.7)  # fmt: skip
+    brushed = tabulate(model, grid, name="brushed")
+    written = write_scene(tmp_path, brushed, "mitsuba")
+    assert "material.zarr" in [file.name for file in written.files]
+    assert_array_equal(read_brdf(tmp_path / "material.zarr").values, brushed.values)
+    for scene in tmp_path.glob("*.xml"):
+        scene.write_text(scene.read_text().replace('value="512"', 'value="32"'))
+    register()
+    mi = load_mitsuba()
+    stock, exact = (rendered(mi, tmp_path / f"{name}.xml") for name in ("scene", "scene-exact"))
+    # The noise of 64 samples, and a small file.
+    assert psnr(stock, exact) > 27
+    write_scene(tmp_path / "pbrt", brushed, "pbrt-v4")
+    assert len(read_tensor_file(tmp_path / "pbrt" / "material.bsdf")["phi_i"]) > 2
 
 
 @pytest.mark.parametrize("renderer", ["pbrt-v2", "pbrt-v4"])

@@ -18,6 +18,7 @@ from numpy.testing import assert_allclose, assert_array_equal
 from patience import PATIENCE, wait_until
 
 from halfway.brdf import TabularBrdf
+from halfway.errors import AnisotropyError
 from halfway.formats import write_merl
 from halfway.formats.rgl_writer import Resolution
 from halfway.halfdiff import Grid
@@ -52,6 +53,18 @@ def script(path: Path) -> ModuleType:
 
 def halfs(body: bytes, shape: str) -> np.ndarray:
     return np.frombuffer(body, "<f2").reshape([int(n) for n in shape.split(",")])
+
+
+def test_a_library_that_depends_on_phi_h_is_refused_in_one_line() -> None:
+    grid = Grid.anisotropic(4, 4, 3, 4)
+    table = TabularBrdf(np.ones((3, *grid.shape), np.float32), grid, name="a")
+    brushes = ProceduralLibrary("brushes", {"a": table}, grid=grid)
+    with pytest.raises(AnisotropyError) as raised:
+        create_app(brushes, page=PAGE)
+    said = str(raised.value)
+    assert said.startswith("brushes depends on phi_h (it is anisotropic): the explorer draws")
+    assert "--grid 90x30x36 -o means.brdflib" in said
+    assert "\n" not in said
 
 
 # What it says of the library

@@ -4,6 +4,7 @@ Every pair is one pixel drawn into a float texture: normal +z, the camera along 
 shader's colour is f_r times the cosine of the light.
 """
 
+from dataclasses import replace
 from importlib import import_module
 from typing import Any
 
@@ -13,7 +14,9 @@ from conftest import opened  # pyright: ignore[reportMissingImports]
 from numpy.testing import assert_allclose
 from playwright.sync_api import Browser
 
-from halfway.fit import OpenPbr
+from halfway.brdf import Quality
+from halfway.export.materialx import to_materialx
+from halfway.fit import Fit, OpenPbr
 
 VERTEX = """#version 300 es
 out vec3 normalWorld; out vec3 tangentWorld; out vec3 positionWorld;
@@ -49,7 +52,7 @@ DRAW = """({ vertex, fragment, models, pairs }) => {
     set("u_lightData[0].color", [1, 1, 1]);
     set("u_lightData[0].intensity", 1);
     return models.map((model) => {
-        for (const name in model) set("surface_" + name, model[name]);
+        for (const name in model) set(name, model[name]);
         pairs.forEach(([wi, wo], i) => {
             set("u_viewPosition", wo);
             set("u_lightData[0].direction", wi.map((x) => -x));
@@ -67,6 +70,12 @@ MODELS = {
     "rough": OpenPbr([0.9, 0.5, 0.2], base_diffuse_roughness=0.8, specular_ior=1.01),
     "metal": OpenPbr(
         [0.9, 0.6, 0.3], base_metalness=1.0, specular_color=[0.9, 0.5, 0.7], specular_roughness=0.5
+    ),
+    "brushed": OpenPbr(
+        [0.9, 0.6, 0.3],
+        base_metalness=0.7,
+        specular_roughness=0.5,
+        specular_roughness_anisotropy=0.8,
     ),
     "velvet": OpenPbr(
         [0.3, 0.1, 0.1], fuzz_weight=0.7, fuzz_color=[0.9, 0.8, 0.4], fuzz_roughness=0.4
@@ -102,32 +111,45 @@ def pairs() -> tuple[np.ndarray, np.ndarray]:
 @pytest.fixture(scope="module")
 def drawn(browser: Browser, pairs: tuple[np.ndarray, np.ndarray]) -> dict[str, np.ndarray]:
     """What MaterialX's shader makes of each of `MODELS`, f_r times the cosine of the light."""
-    fragment, defaults = shader()
-    models = [{**defaults, **model.parameters()} for model in MODELS.values()]
+    document = import_module("MaterialX").createDocument()
+    surface = document.addNode("open_pbr_surface", "surface", "surfaceshader")
+    # A mention keeps an input from being folded into the code.
+    surface.setInputValue("fuzz_weight", 0.5, "float")
+    document.addMaterialNode("worn", surface)
+    models = [
+        {f"surface_{name}": value for name, value in model.parameters().items()}
+        for model in MODELS.values()
+    ]
+    return dict(zip(MODELS, draw(browser, document, models, pairs), strict=True))
+
+
+def draw(
+    browser: Browser,
+    document: Any,
+    models: list[dict[str, Any]],
+    pairs: tuple[np.ndarray, np.ndarray],
+) -> list[np.ndarray]:
+    """The colours of a document's material with each of these values of its uniforms in place of its own."""
+    fragment, uniforms = shader(document)
     argument = {
         "vertex": VERTEX,
         "fragment": fragment,
-        "models": models,
+        "models": [{**uniforms, **model} for model in models],
         "pairs": np.stack(pairs, axis=1).tolist(),
     }
     with opened(browser) as page:
-        colours = page.evaluate(DRAW, argument)
-    return dict(zip(MODELS, map(np.array, colours), strict=True))
+        return [np.array(colours) for colours in page.evaluate(DRAW, argument)]
 
 
-def shader() -> tuple[str, dict[str, Any]]:
-    """The fragment shader of ``open_pbr_surface`` as MaterialX generates it, and the defaults of its inputs."""
+def shader(document: Any) -> tuple[str, dict[str, Any]]:
+    """The fragment shader that MaterialX generates for a document's material, and the values of its uniforms."""
     mx: Any = import_module("MaterialX")
     generation: Any = import_module("MaterialX.PyMaterialXGenShader")
     essl: Any = import_module("MaterialX.PyMaterialXGenGlsl")
     library = mx.createDocument()
     mx.loadLibraries(mx.getDefaultDataLibraryFolders(), mx.getDefaultDataSearchPath(), library)
-    document = mx.createDocument()
     document.setDataLibrary(library)
-    surface = document.addNode("open_pbr_surface", "surface", "surfaceshader")
-    # A mention keeps an input from being folded into the code.
-    surface.setInputValue("fuzz_weight", 0.5, "float")
-    material = document.addMaterialNode("worn", surface)
+    (material,) = document.getMaterialNodes()
     generator = essl.EsslShaderGenerator.create()
     context = generation.GenContext(generator)
     context.registerSourceCodeSearchPath(mx.getDefaultDataSearchPath())
@@ -138,15 +160,26 @@ def shader() -> tuple[str, dict[str, Any]]:
     light = library.getNodeDef("ND_directional_light")
     generation.HwShaderGenerator.bindLightShader(light, 1, context)
     made = generator.generate("shader", material, context)
-    inputs = library.getNodeDef("ND_open_pbr_surface_surfaceshader").getInputs()
-    defaults = {
-        each.getName(): list(value) if hasattr(value, "asTuple") else value
-        for each in inputs
-        if (value := each.getValue()) is not None
-    }
+    block = made.getStage("pixel").getUniformBlock("PublicUniforms")
+    ports = [block[i] for i in range(block.size())]
+    values = {p.getVariable(): p.getValue().getData() for p in ports if p.getValue() is not None}
+    uniforms = {name: list(v) if hasattr(v, "asTuple") else v for name, v in values.items()}
     # Without an environment the generator mentions a uniform that it does not declare.
     missing = "precision highp float;\nuniform bool u_refractionTwoSided;"
-    return made.getSourceCode("pixel").replace("precision highp float;", missing, 1), defaults
+    return made.getSourceCode("pixel").replace("precision highp float;", missing, 1), uniforms
+
+
+def test_the_tangent_that_a_file_turns_is_the_models(
+    browser: Browser, pairs: tuple[np.ndarray, np.ndarray]
+) -> None:
+    mx: Any = import_module("MaterialX")
+    model = replace(MODELS["brushed"], tangent_rotation=0.5)
+    document = mx.createDocument()
+    text = to_materialx(Fit("a", model, 0.0, Quality(40.0, 0.0), 0.0))
+    mx.readFromXmlString(document, text)
+    (found,) = draw(browser, document, [{}], pairs)
+    wi, wo = pairs
+    assert_allclose(found, model.eval(wi, wo) * wi[:, 2:], rtol=1e-3, atol=1e-6)
 
 
 @pytest.mark.parametrize("name", MODELS)

@@ -121,7 +121,9 @@ function takeShortlist({ options, store, actions }: Context): void {
 function drawable({ name, grid }: LibrarySummary): DrawableGrid {
   if (isDrawable(grid)) return grid;
   const angles = grid.map(({ angle }) => angle).join(", ");
-  throw new Problem(`${name} has a grid over ${angles}: the explorer draws theta_h, theta_d, phi_d.`);
+  throw new Problem(
+    `${name} has a grid over ${angles}: the explorer draws theta_h, theta_d, phi_d. Use \`halfway render\`.`,
+  );
 }
 
 function applyTheme({ root, store, options, signal }: Context): void {

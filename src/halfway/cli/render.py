@@ -47,7 +47,7 @@ def render(
     halfway render new.binary -o new.png --size 1024 --quality final
     halfway render teflon chrome gold-paint -o three.png --scene trio
     halfway render gold-paint -o around.webp --turntable 24
-    halfway render brushed.zarr -o turned.png --scene brushed --turn 90
+    halfway render builtin:anisotropic:hairline-steel -o turned.png --scene brushed --turn 90
     halfway render chrome -o outside.png --scene sphere --env forest.exr --show-env
     """
     from halfway.recipes import open_materials

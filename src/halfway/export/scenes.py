@@ -4,7 +4,7 @@ The scene is the same everywhere: a sphere of radius 1 at the origin, z up, a ca
 an even dim environment and three point lights; direct light.
 
     mitsuba   scene.xml with the stock `measured` plugin and material.bsdf; scene-exact.xml with `halfway_table` and
-              material.binary, the table itself
+              material.binary, the table itself; material.zarr where it depends on phi_h
     pbrt-v2   scene.pbrt with `measured` and material.binary, on the database's grid: it reads no other
     pbrt-v4   scene.pbrt with `measured` and material.bsdf, spectral
 
@@ -17,10 +17,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import NamedTuple
 
-from ..brdf import Brdf, TabularBrdf, tabulate
+from ..brdf import Brdf, TabularBrdf, own_grid, tabulate
 from ..errors import OutputError
 from ..files import replacing
-from ..formats import write_merl, write_rgl
+from ..formats import write_brdf, write_merl, write_rgl
 from ..halfdiff import MERL
 
 RENDERERS = ("mitsuba", "pbrt-v2", "pbrt-v4")
@@ -83,12 +83,14 @@ def write_scene(
     match renderer:
         case "mitsuba":
             notes = _write_bsdf(folder / "material.bsdf", brdf)
-            write_merl(folder / "material.binary", _table(brdf, name))
+            table = _table(brdf, name)
+            exact = "material.binary" if table.is_isotropic else "material.zarr"
+            write_brdf(folder / exact, table)
             texts = {
                 "scene.xml": _mitsuba("measured", "material.bsdf"),
-                "scene-exact.xml": _mitsuba("halfway_table", "material.binary"),
+                "scene-exact.xml": _mitsuba("halfway_table", exact),
             }
-            files, command = ["material.bsdf", "material.binary"], "mitsuba -m scalar_rgb scene.xml"
+            files, command = ["material.bsdf", exact], "mitsuba -m scalar_rgb scene.xml"
             notes = f"{notes}\n\n{_EXACT}"
         case "pbrt-v2":
             write_merl(folder / "material.binary", _on_the_grid_of_the_database(_table(brdf, name)))
@@ -122,7 +124,7 @@ def _write_bsdf(path: Path, brdf: Brdf, *, spectral: bool = False) -> str:
 
 
 def _table(brdf: Brdf, name: str) -> TabularBrdf:
-    return brdf if isinstance(brdf, TabularBrdf) else tabulate(brdf, MERL, name=name)
+    return brdf if isinstance(brdf, TabularBrdf) else tabulate(brdf, own_grid(brdf), name=name)
 
 
 def _on_the_grid_of_the_database(table: TabularBrdf) -> TabularBrdf:

@@ -29,6 +29,7 @@ from ..space import PACES, SPACES, Embedding, Route, Scores, Space, lengths, mak
 from ..space import route as route_through
 from ..tasks import HERE, Work
 from .blocks import Block
+from .drawable import require_drawable
 from .finding import attributes_view, found_view
 from .making import Once, Progress
 from .schema import (
@@ -66,6 +67,11 @@ class Explorer:
 
     ``patience`` is how many seconds an answer may wait for what is computed once, before `NotYetError` says how far that is;
     None waits for it. ``make`` makes its spaces, as `make_space` does.
+
+    Raises
+    ------
+    AnisotropyError
+        When its tables depend on phi_h.
     """
 
     def __init__(
@@ -84,6 +90,7 @@ class Explorer:
         self._begin(library)
 
     def _begin(self, library: Library) -> None:
+        require_drawable(library)
         self.library = library
         progress = self._progress
         self._looks = Once(partial(Looks.fit, library, work=self._work), progress)
