@@ -34,12 +34,12 @@ UV = os.environ.get("UV", "uv")  # `uv run` says where it is
 BLENDER = "5.3.0"
 LIBRARY = "builtin:merl-abc"
 KINDS = {
-    "metal": ("brass", "nickel", "tungsten-carbide"),
-    "metallic paint": ("blue-metallic-paint2", "gold-metallic-paint", "silver-metallic-paint"),
-    "glossy plastic": ("red-specular-plastic", "yellow-phenolic", "green-acrylic"),
-    "paint, wood": ("dark-red-paint", "cherry-235", "pearl-paint"),
-    "rubber, matte plastic": ("blue-rubber", "neoprene-rubber", "yellow-matte-plastic"),
-    "fabric": ("red-fabric", "light-brown-fabric", "pink-felt"),
+    "metal": ("brass", "nickel"),
+    "metallic paint": ("blue-metallic-paint2", "gold-metallic-paint"),
+    "glossy plastic": ("red-specular-plastic", "yellow-phenolic"),
+    "paint, wood": ("dark-red-paint", "cherry-235"),
+    "rubber, matte plastic": ("blue-rubber", "neoprene-rubber"),
+    "fabric": ("red-fabric", "light-brown-fabric"),
 }
 """Materials of each kind, the first of them for the check."""
 OPENPBR, MITSUBA = "openpbr by its formula", "mitsuba by its formula"

@@ -242,19 +242,21 @@ def shown_as(folder: Path, name: str, brdf) -> dict[str, bpy.types.Material]:
     made = {tree: module("making").make(name, brdf, tree) for tree in TREES}
     glb, usd = folder / f"{name}.glb", folder / name / "scene.usda"
     made[".glb"] = read_by(lambda: bpy.ops.import_scene.gltf(filepath=str(glb)))
-    made[".usda"] = read_by(lambda: bpy.ops.wm.usd_import(filepath=str(usd)))
+    # Blender puts no material on USD's own sphere.
+    made[".usda"] = read_by(
+        lambda: bpy.ops.wm.usd_import(filepath=str(usd), import_all_materials=True)
+    )
     return made
 
 
 def read_by(read) -> bpy.types.Material:
     """The material that an importer brings, without its scene."""
     scene = bpy.context.scene
-    world, objects = scene.world, set(bpy.data.objects)
+    world, objects, materials = scene.world, set(bpy.data.objects), set(bpy.data.materials)
     read()
-    new = set(bpy.data.objects) - objects
-    (material,) = {slot.material for each in new for slot in each.material_slots}
+    (material,) = set(bpy.data.materials) - materials
     material.use_fake_user = True
-    for each in new:
+    for each in set(bpy.data.objects) - objects:
         bpy.data.objects.remove(each)
     scene.world, scene.camera = world, bpy.data.objects["camera"]
     return material
