@@ -95,7 +95,7 @@ def _lobes(wi: np.ndarray, wo: np.ndarray) -> np.ndarray:
     lobes = [np.full_like(cos_i, 1 / np.pi)]
     for roughness in ROUGHNESSES:
         a = roughness**2
-        lobes.append(ggx(theta_h, a) * smith_correlated(cos_i, cos_o, a) / (4 * cos_i * cos_o))
+        lobes.append(ggx(theta_h, a) * smith_correlated(cos_i, cos_o, a, a) / (4 * cos_i * cos_o))
     return np.stack(lobes)
 
 

@@ -6,7 +6,7 @@ from pathlib import Path
 import bpy
 
 from . import nodes
-from .halfway.brdf import Brdf, TabularBrdf, tabulate
+from .halfway.brdf import Brdf, TabularBrdf, require_isotropic, tabulate
 from .halfway.fit import fit
 from .halfway.halfdiff import MERL
 from .lobes import Lobes
@@ -30,6 +30,7 @@ def show(
     material: bpy.types.Material, brdf: Brdf, kind: str, *, parameters: dict | None = None
 ) -> None:
     """Let a material show another BRDF."""
+    require_isotropic(brdf, "a node tree")
     match kind:
         case "principled":
             nodes.principled(material, parameters or fitted(brdf))

@@ -96,9 +96,13 @@ def principled(material: bpy.types.Material, parameters: dict) -> None:
 def lobes(material: bpy.types.Material, found: Lobes) -> None:
     """A diffuse and several glossy closures, their colours by the angle of view; a material that has them gets new colours."""
     rows = len(found.weights)
-    image = image_of(f"{material.name} lobes", found.weights)
     if material.get("halfway_nodes") == "lobes":
+        fill(
+            next(node.image for node in material.node_tree.nodes if node.type == "TEX_IMAGE"),
+            found.weights,
+        )
         return
+    image = image_of(f"{material.name} lobes", found.weights)
     tree = Tree(material)
     geometry = tree.add("NewGeometry").outputs
     cosine = tree.vector("DOT_PRODUCT", geometry["Normal"], geometry["Incoming"])
@@ -232,16 +236,18 @@ def _filled(brdf: TabularBrdf) -> np.ndarray:
 
 
 def image_of(name: str, values: np.ndarray) -> bpy.types.Image:
-    """An image of float values, shape (height, width, 3), the first row at the bottom; packed into the file."""
+    """A new image of float values, shape (height, width, 3), the first row at the bottom."""
     height, width, _ = values.shape
-    image = bpy.data.images.get(name)
-    if image is None or tuple(image.size) != (width, height):
-        image = bpy.data.images.new(
-            name, width, height, alpha=False, float_buffer=True, is_data=True
-        )
-    pixels = np.ones((height, width, 4), np.float32)
+    image = bpy.data.images.new(name, width, height, alpha=False, float_buffer=True, is_data=True)
+    fill(image, values)
+    return image
+
+
+def fill(image: bpy.types.Image, values: np.ndarray) -> None:
+    """Give an image other values; they are packed into the file."""
+    pixels = np.ones((*values.shape[:2], 4), np.float32)
     pixels[..., :3] = values
     image.pixels.foreach_set(pixels.ravel())
     image.update()
     image.pack()
-    return image
+    image.update_tag()

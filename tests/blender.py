@@ -18,30 +18,40 @@ import numpy as np
 ROOT = Path(__file__).parents[1]
 sys.path[:0] = [str(ROOT / "tests"), str(ROOT / "blender")]
 
+import glossy  # noqa: E402
 from build import build  # noqa: E402
 from written_files import keras, nbrdf_layers  # noqa: E402
 
 from halfway import open_library  # noqa: E402
-from halfway.export import write_recipe, write_scenes  # noqa: E402
+from halfway.export import write_fit, write_recipe, write_scenes  # noqa: E402
+from halfway.export.usd import Fits, write_usd  # noqa: E402
+from halfway.fit import fit  # noqa: E402
 from halfway.formats import write_brdf  # noqa: E402
-from halfway.halfdiff import Grid  # noqa: E402
 from halfway.library import Library  # noqa: E402
-from halfway.recipes import Recipe, open_materials  # noqa: E402
+from halfway.recipes import NamedBrdf, Recipe  # noqa: E402
 
 UV = os.environ.get("UV", "uv")  # `uv run` says where it is
 BLENDER = "5.3.0"
 LIBRARY = "builtin:merl-abc"
-STOPS = ("cherry-235", "gold-paint", "teflon")
 KINDS = {
-    "metal": ("brass", "nickel", "tungsten-carbide"),
-    "metallic paint": ("blue-metallic-paint2", "gold-metallic-paint", "silver-metallic-paint"),
-    "glossy plastic": ("red-specular-plastic", "yellow-phenolic", "green-acrylic"),
-    "paint, wood": ("dark-red-paint", "cherry-235", "pearl-paint"),
-    "rubber, matte plastic": ("blue-rubber", "neoprene-rubber", "yellow-matte-plastic"),
-    "fabric": ("red-fabric", "light-brown-fabric", "pink-felt"),
+    "metal": ("brass", "nickel"),
+    "metallic paint": ("blue-metallic-paint2", "gold-metallic-paint"),
+    "glossy plastic": ("red-specular-plastic", "yellow-phenolic"),
+    "paint, wood": ("dark-red-paint", "cherry-235"),
+    "rubber, matte plastic": ("blue-rubber", "neoprene-rubber"),
+    "fabric": ("red-fabric", "light-brown-fabric"),
 }
 """Materials of each kind, the first of them for the check."""
-SMALL = Grid.merl(90, 30, 36)
+OPENPBR, MITSUBA = "openpbr by its formula", "mitsuba by its formula"
+TREES = {"table": "table", "lobes": "lobes", "principled": "Principled"}
+FITS = {
+    "principled": "Cycles, Principled",
+    ".glb": "Blender, `.glb`",
+    ".usda": "Blender, `.usda`",
+    MITSUBA: "Mitsuba, `principled`",
+    OPENPBR: "MaterialX, OpenPBR",
+}
+"""Columns of the two tables, and what they are called there."""
 
 
 def main(arguments: Sequence[str]) -> None:
@@ -54,7 +64,12 @@ def main(arguments: Sequence[str]) -> None:
         build(work / "addon.zip")
         if arguments[:1] == ["--table"]:
             for where in arguments[1:] or [LIBRARY]:
-                print_table(where, measured(work, open_library(where), KINDS))
+                library = open_library(where)
+                means = measured(work, library, KINDS)
+                for kind, errors in by_formula(library, KINDS).items():
+                    means[kind].update(errors)
+                print_table(where, means, TREES)
+                print_table(where, means, FITS)
             return
         write_files(work)
         in_blender("check", work)
@@ -91,7 +106,9 @@ def write_files(folder: Path) -> None:
     write_brdf(folder / "gold.bsdf", brdf)
     (folder / "network.h5").write_bytes(keras(nbrdf_layers()))
     write_recipe(folder / "mix.recipe.json", library, Recipe.of(library, {"gold-paint": 0.5, "teflon": 0.5}))  # fmt: skip
-    write_scenes(folder, open_materials([f"{LIBRARY}:{name}" for name in STOPS]), "blender")
+    few = glossy.library(6)
+    stops = [NamedBrdf.mixed(few, Recipe.of(few, {name: 1.0})) for name in ("m0", "m3", "m5")]
+    write_scenes(folder, stops, "blender")
     (folder / "command").write_text(str(Path(sys.executable).with_name("halfway")))
 
 
@@ -106,6 +123,10 @@ def measured(
     """For each kind and node tree the mean errors of what Cycles renders."""
     names = [name for names in kinds.values() for name in names]
     tables = {name: library.row(library.index(name)).reshape(3, *library.grid.shape) for name in names}  # fmt: skip
+    for name in names:
+        brdf = library.brdf(name)
+        write_fit(folder / f"{name}.glb", fit(brdf, "gltf-blender", name=name))
+        write_usd(folder / name, [Fits(*(fit(brdf, model, name=name) for model in Fits._fields))])
     np.savez(folder / "tables.npz", grid=np.array(library.grid.shape), **tables)
     in_blender("measure", folder)
     found = json.loads((folder / "errors.json").read_text())
@@ -117,13 +138,26 @@ def measured(
     return means
 
 
-def print_table(where: str, means: dict[str, dict[str, dict[str, float]]]) -> None:
+def by_formula(
+    library: Library, kinds: dict[str, tuple[str, ...]]
+) -> dict[str, dict[str, dict[str, float]]]:
+    """For each kind the mean errors of fits whose formulas were checked against their renderers."""
+    means: dict[str, dict[str, dict[str, float]]] = defaultdict(dict)
+    for kind, names in kinds.items():
+        for model, column in (("openpbr", OPENPBR), ("principled", MITSUBA)):
+            fits = [fit(library.brdf(name), model, name=name) for name in names]
+            rows = [(f.picture.psnr, f.picture.relative_l1, f.albedo_error) for f in fits]
+            means[kind][column] = dict(zip(("psnr", "l1", "furnace"), np.mean(rows, axis=0), strict=True))  # fmt: skip
+    return means
+
+
+def print_table(
+    where: str, means: dict[str, dict[str, dict[str, float]]], columns: dict[str, str]
+) -> None:
     """In Markdown: on the lit sphere dB and mean error, in the furnace the largest error of the albedo."""
-    trees = list(next(iter(means.values())))
-    print(f"\n{where}\n\n| kind | " + " | ".join(trees) + " |\n|---|" + "---|" * len(trees))
+    print(f"\n{where}\n\n| kind | {' | '.join(columns.values())} |\n|---|{'---|' * len(columns)}")
     for kind, row in means.items():
-        cells = [_cell(row[tree]) for tree in trees]
-        print(f"| {kind} | " + " | ".join(cells) + " |")
+        print(f"| {kind} | {' | '.join(_cell(row[column]) for column in columns)} |")
 
 
 def _cell(errors: dict[str, float]) -> str:

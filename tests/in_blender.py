@@ -203,14 +203,17 @@ def shadows(_folder: Path) -> None:
 
 def kept(folder: Path) -> None:
     """What is saved and opened again looks the same: images lie in the file."""
-    names = ("gold", "gold.002")
-    before = [lit(bpy.data.materials[name]) for name in names]
-    for name in names:
-        bpy.data.materials[name].use_fake_user = True
+    names = ("table", "lobes")
+    made = [module("making").make(kind, a_table(), kind) for kind in names]
+    before = [lit(material) for material in made]
+    for material in made:
+        material.use_fake_user = True
     bpy.ops.wm.save_as_mainfile(filepath=str(folder / "kept.blend"))
     bpy.ops.wm.open_mainfile(filepath=str(folder / "kept.blend"))
     for name, picture in zip(names, before, strict=True):
-        assert psnr(lit(bpy.data.materials[name]), picture) > 50, name
+        assert picture.mean() > 0.01
+        # Lights come in another order, and so does the noise of choosing among them.
+        assert psnr(lit(bpy.data.materials[name]), picture) > 35, name
 
 
 def measure(folder: Path) -> None:
@@ -223,17 +226,40 @@ def measure(folder: Path) -> None:
         brdf = module("halfway.brdf").TabularBrdf(tables[name], grid, name=name)
         expected, furnace = reference(brdf), albedo(brdf)
         found[name] = {}
-        for tree in TREES:
-            material = module("making").make(name, brdf, tree)
+        for tree, material in shown_as(folder, name, brdf).items():
             picture = lit(material)
             errors = {"psnr": psnr(picture, expected), "l1": relative(picture, expected)}
             if tree != "table":
-                errors["furnace"] = float(
-                    np.abs(in_furnace(material) - furnace)[inside(0.96)].max()
-                )
+                off = np.abs(in_furnace(material) - furnace)[inside(0.96)]
+                errors["furnace"] = float(off.max())
             found[name][tree] = errors
         say(name, {tree: {key: round(value, 4) for key, value in errors.items()} for tree, errors in found[name].items()})  # fmt: skip
     (folder / "errors.json").write_text(json.dumps(found))
+
+
+def shown_as(folder: Path, name: str, brdf) -> dict[str, bpy.types.Material]:
+    """A material as each tree of ours, and as Blender reads it from our files."""
+    made = {tree: module("making").make(name, brdf, tree) for tree in TREES}
+    glb, usd = folder / f"{name}.glb", folder / name / "scene.usda"
+    made[".glb"] = read_by(lambda: bpy.ops.import_scene.gltf(filepath=str(glb)))
+    # Blender puts no material on USD's own sphere.
+    made[".usda"] = read_by(
+        lambda: bpy.ops.wm.usd_import(filepath=str(usd), import_all_materials=True)
+    )
+    return made
+
+
+def read_by(read) -> bpy.types.Material:
+    """The material that an importer brings, without its scene."""
+    scene = bpy.context.scene
+    world, objects, materials = scene.world, set(bpy.data.objects), set(bpy.data.materials)
+    read()
+    (material,) = set(bpy.data.materials) - materials
+    material.use_fake_user = True
+    for each in set(bpy.data.objects) - objects:
+        bpy.data.objects.remove(each)
+    scene.world, scene.camera = world, bpy.data.objects["camera"]
+    return material
 
 
 def build_scene() -> None:

@@ -84,7 +84,11 @@ def fit(
     else:
         show(*(f"{fit.name}, {fit.summary}" for fit in fits))
     if output:
-        lights = ". In Blender, import it with Lighting Mode: Unitless" if kind == "gltf" else ""
+        lights = (
+            ". In Blender, import it with Lighting Mode: Unitless"
+            if kind.startswith("gltf")
+            else ""
+        )
         say(f"{output}: {fits[0].name}{lights}")
     if picture:
         say(f"{picture}: the table, the fit, the difference; below, in Mitsuba")

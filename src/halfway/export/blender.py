@@ -21,7 +21,7 @@ from typing import Any
 
 import numpy as np
 
-from ..brdf import TabularBrdf, half_scale, tabulate
+from ..brdf import TabularBrdf, half_scale, require_isotropic, tabulate
 from ..errors import OutputError
 from ..files import replacing
 from ..halfdiff import Grid
@@ -45,8 +45,11 @@ def write_blender(folder: Path, materials: Sequence[NamedBrdf], work: Work) -> P
     ------
     OutputError
         When they are not of one library, or are mixes, or the file cannot be written.
+    AnisotropyError
+        When the library's tables depend on phi_h.
     """
     library, stops = _one_library(materials)
+    require_isotropic(library.grid, "a file for Blender", name=library.name)
     space = make_space("anchored", library, work=work)
     pairs = list(combinations(stops, 2))
     ways = list(work.run(partial(_way, space), pairs, label="Ways"))
