@@ -27,7 +27,7 @@ def test_the_materials_side_by_side_are_filtered_ordered_and_chosen(explorer: Ex
     # Read off the tables, it is there a moment later.
     page.locator("[name=gloss]").select_option("satin")
     expect(page.locator(".grid button:visible")).to_have_text(["gold-paint", "pearl-paint"])
-    expect(page.locator(".filters .note")).to_have_text("2 of 10")
+    expect(page.locator(".filters .count")).to_have_text("2 of 10")
     page.locator("[name=kind]").select_option("")
     page.locator("[name=gloss]").select_option("")
     page.locator("[name=order]").select_option("gloss")
