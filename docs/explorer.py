@@ -46,9 +46,9 @@ SPP = 4096
 # What the page settles for.
 SAMPLES = {"points": 128, "studio": 384}
 SCREENS = {
-    "explorer-dark": ((1440, 900), "dark", "#space=anchored&stops=gold-metallic-paint,blue-acrylic&t=0.2&shape=teapot"),
+    "explorer-dark": ((1440, 900), "dark", "#space=anchored&stops=gold-metallic-paint,blue-acrylic&t=0.2&shape=teapot&aside=numbers"),
     "explorer-light": ((1440, 900), "light", "#space=paper&stops=cherry-235,tungsten-carbide&t=0.5&light=city&compare=linear"),
-    "explorer-narrow-dark": ((800, 900), "dark", "#space=anchored&stops=pink-felt,chrome,teflon&t=0.3&light=sunset"),
+    "explorer-narrow-dark": ((800, 900), "dark", "#space=anchored&stops=pink-felt,chrome,teflon&t=0.3&light=sunset&map=Grid"),
     "explorer-narrow-light": ((800, 900), "light", "#space=anchored&stops=green-plastic,gold-paint&t=0.5&shape=teapot&light=forest"),
 }  # fmt: skip
 

@@ -10,6 +10,7 @@ from playwright.sync_api import TimeoutError as TooLate
 from playwright.sync_api import expect
 
 SIZE = {"width": 1280, "height": 900}
+SMALL = {"width": 460, "height": 560}
 PAIR = "#space=linear&pace=uniform&stops=cherry-235,gold-paint&light=points&t="
 
 
@@ -27,7 +28,7 @@ def test_the_materials_side_by_side_are_filtered_ordered_and_chosen(explorer: Ex
     # Read off the tables, it is there a moment later.
     page.locator("[name=gloss]").select_option("satin")
     expect(page.locator(".grid button:visible")).to_have_text(["gold-paint", "pearl-paint"])
-    expect(page.locator(".filters .note")).to_have_text("2 of 10")
+    expect(page.locator(".filters .count")).to_have_text("2 of 10")
     page.locator("[name=kind]").select_option("")
     page.locator("[name=gloss]").select_option("")
     page.locator("[name=order]").select_option("gloss")
@@ -59,7 +60,7 @@ def test_the_search_knows_what_materials_are(
 
 def test_what_the_pointer_rests_on_is_drawn_before_it_is_chosen(explorer: Explorer) -> None:
     page = explorer.page
-    page.set_viewport_size(SIZE)
+    page.set_viewport_size(SMALL)
     explorer.open(PAIR + "1&map=Grid")
     explorer.wait_for_whole_picture(4)
     gold = to_linear(explorer.drawn())

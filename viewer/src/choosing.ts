@@ -7,9 +7,14 @@ import { GRID, type State } from "./state";
 
 export function followChoice({ store, names, thumbnails }: Context): void {
   store.watch(["pictured", "attributes"], ({ attributes }) => {
-    const gloss = attributes?.find(({ name }) => name === "gloss60")?.values;
+    const [gloss, width] = ["gloss60", "highlight_width"].map(
+      (name) => attributes?.find((each) => each.name === name)?.values,
+    );
+    // What has no highlight has none that is narrow.
+    const shine = (i: number) =>
+      gloss && { gloss60: gloss[i] ?? 0, width: width?.[i] ?? Number.POSITIVE_INFINITY };
     store.set({
-      described: names.map((name, i) => described(name, thumbnails.mean(only(name)), gloss?.[i] ?? null)),
+      described: names.map((name, i) => described(name, thumbnails.mean(only(name)), shine(i) ?? null)),
     });
   });
   store.watch(["described", "query", "facets", "map"], (state) => store.set({ matches: matches(state) }));

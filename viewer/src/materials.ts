@@ -1,7 +1,7 @@
 // Materials as people ask for them: what they are made of, their colour, how they shine; and which of them fit some words.
 //
 // The kind is read off the name, the colour off the mean of the small picture (a metal's colour is in its highlight), the shine
-// off the specular gloss at 60 degrees, where instruments have read it.
+// off the specular gloss at 60 degrees and the width of the highlight, where instruments have read them.
 
 import { toLab } from "./colour";
 
@@ -58,12 +58,18 @@ const SYNONYMS: Readonly<Record<string, readonly string[]>> = {
   shiny: ["glossy", "mirror"], glossy: ["mirror"], polished: ["mirror", "glossy"], specular: ["glossy", "mirror"], reflective: ["mirror"],
   matt: ["matte"], dull: ["matte"], diffuse: ["matte"], flat: ["matte"], semigloss: ["satin"], eggshell: ["satin"],
   resin: ["phenolic"], bakelite: ["phenolic"], wooden: ["wood"], timber: ["wood"], mineral: ["stone"], ceramic: ["stone"], rock: ["stone"],
-  gray: ["grey"], silver: ["grey"], violet: ["purple"], lilac: ["purple"], maroon: ["red"], crimson: ["red"], scarlet: ["red"], gold: ["yellow"], golden: ["yellow", "gold"],
+  gray: ["grey"], violet: ["purple"], lilac: ["purple"], maroon: ["red"], crimson: ["red"], scarlet: ["red"], golden: ["gold"],
   beige: ["brown"], tan: ["brown"], cyan: ["blue"], teal: ["blue", "green"], turquoise: ["blue", "green"], rose: ["pink"], dark: ["black"],
 };
 
-/** A material by its name, the mean colour of its picture (linear RGB) and its specular gloss at 60 degrees, where that is known. */
-export function described(name: string, picture: readonly number[], gloss60: number | null): Described {
+/** What instruments read off a material: its specular gloss at 60 degrees, and the width of its highlight in degrees. */
+export interface Shine {
+  readonly gloss60: number;
+  readonly width: number;
+}
+
+/** A material by its name, the mean colour of its picture (linear RGB), and its shine where that is known. */
+export function described(name: string, picture: readonly number[], shine: Shine | null): Described {
   const words = wordsOf(name);
   const [L, a, b] = toLab(picture);
   const hue = ((Math.atan2(b, a) * 180) / Math.PI + 360) % 360;
@@ -74,8 +80,8 @@ export function described(name: string, picture: readonly number[], gloss60: num
     words,
     kind: kindOf(words),
     colour: isGrey ? greyOf(L) : colourOf(L, chroma, hue),
-    gloss: gloss60 === null ? null : glossOf(gloss60),
-    gloss60: gloss60 ?? 0,
+    gloss: shine && glossOf(shine),
+    gloss60: shine?.gloss60 ?? 0,
     lightness: L,
     hue: isGrey ? 360 + L : hue,
   };
@@ -107,10 +113,14 @@ function colourOf(lightness: number, chroma: number, hue: number): Colour {
   return lightness >= 33 && hue < 37 ? "pink" : "red";
 }
 
-/** In gloss units; tables read less than panels do. */
-function glossOf(gloss60: number): Gloss {
-  return gloss60 < 3 ? "matte" : gloss60 < 10 ? "satin" : gloss60 < 50 ? "glossy" : "mirror";
+/** In gloss units; tables read less than panels do, so that a narrow highlight makes what is satin glossy. */
+function glossOf({ gloss60, width }: Shine): Gloss {
+  if (gloss60 >= 50) return "mirror";
+  if (gloss60 >= 10 || (gloss60 >= 5 && width < NARROW)) return "glossy";
+  return gloss60 >= 3 ? "satin" : "matte";
 }
+
+const NARROW = 2.5;
 
 function wordsOf(text: string): string[] {
   return text

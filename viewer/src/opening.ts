@@ -6,7 +6,7 @@ import { toHash } from "./permalink";
 import { readLight } from "./render/environments";
 import { readMesh } from "./render/meshes";
 import { HOME } from "./scene";
-import { fromText } from "./shortlist";
+import { fromText, isShortlist } from "./shortlist";
 import type { Panel } from "./state";
 
 interface Kind {
@@ -93,9 +93,10 @@ async function addMeasurement({ client, options, store, actions }: Context, file
 
 /** A recipe is shown, and kept; a shortlist joins the one that is there. */
 async function openRecipes({ store, actions }: Context, file: File): Promise<void> {
-  const opened = fromText(await file.text(), file.name, store.get().library);
+  const text = await file.text();
+  const opened = fromText(text, file.name, store.get().library);
   actions.keep(...opened);
-  if (opened.length === 1) actions.hold(opened[0]!);
+  if (!isShortlist(text)) actions.hold(opened[0]!);
 }
 
 /** A picture of light all around takes the place of the light. */

@@ -33,7 +33,7 @@ export function followPointer(context: Context): void {
     }, REST);
   });
   // What was done is to be seen, and not what the pointer is still on.
-  const acted: readonly (keyof State)[] = ["recipe", "stops", "t", "asked", "held", "space", "blend"];
+  const acted: readonly (keyof State)[] = ["stops", "t", "point", "asked", "held", "space", "blend"];
   store.watch(acted, ({ pointed }) => pointed && store.set({ pointed: null }));
 }
 

@@ -25,6 +25,11 @@ export function toText(library: string, kept: readonly Kept[]): string {
   return `${JSON.stringify({ format: 1, library, materials }, null, 1)}\n`;
 }
 
+/** Whether a text is a shortlist, of however many. */
+export function isShortlist(text: string): boolean {
+  return Array.isArray(parsed(text, "").materials);
+}
+
 /** What is in a file of a shortlist, or of one recipe, called `file`. */
 export function fromText(text: string, file: string, library: LibrarySummary): Kept[] {
   const document = parsed(text, file);

@@ -7,12 +7,12 @@ const RED = [0.12, 0.03, 0.02];
 const GREY = [0.08, 0.08, 0.08];
 const BLUE = [0.01, 0.03, 0.08];
 const ALL = [
-  described("red-fabric2", RED, 0.3),
-  described("specular-maroon-phenolic", RED, 18.8),
-  described("red-phenolic", RED, 11.4),
-  described("blue-metallic-paint", BLUE, 2.7),
-  described("chrome", GREY, 102),
-  described("special-walnut-224", [0.012, 0.008, 0.005], 1),
+  described("red-fabric2", RED, { gloss60: 0.3, width: 9 }),
+  described("specular-maroon-phenolic", RED, { gloss60: 18.8, width: 0.6 }),
+  described("red-phenolic", RED, { gloss60: 9, width: 2.2 }),
+  described("blue-metallic-paint", BLUE, { gloss60: 2.7, width: 10 }),
+  described("chrome", GREY, { gloss60: 102, width: 0.4 }),
+  described("special-walnut-224", [0.012, 0.008, 0.005], { gloss60: 1, width: 11 }),
   described("ss440", GREY, null),
 ];
 

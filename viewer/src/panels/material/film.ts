@@ -69,7 +69,7 @@ function settings(): {
     el("label.line.choice", "What moves", motion),
     el("label.line.choice", "Width and height", size, "pixels"),
     el("label.line.choice", `Length, ${RATE} frames a second`, seconds, "seconds"),
-    el("label.line.choice", "Frames", quality),
+    el("label.line.choice", "Quality", quality),
     el("label.line.choice", "As", kind),
   ];
   return { read, fields };

@@ -26,7 +26,7 @@ export const FORMATS: Readonly<Record<string, Format>> = {
   },
   bsdf: { text: ".bsdf", suffix: ".bsdf", title: "For Mitsuba's `measured` material; takes some seconds" },
   mtlx: { text: ".mtlx", suffix: ".mtlx", title: "OpenPBR in MaterialX, fitted: USD, Houdini, Maya, Arnold" },
-  glb: { text: ".glb", suffix: ".glb", title: "glTF, fitted: Blender, the web" },
+  glb: { text: ".glb (Blender)", suffix: ".glb", title: "glTF, fitted: Blender, the web" },
   mitsuba: zip("Mitsuba 3", "mitsuba"),
   "pbrt-v4": zip("pbrt-v4", "pbrt-v4"),
   "pbrt-v2": zip("pbrt-v2", "pbrt-v2"),

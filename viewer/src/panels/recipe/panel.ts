@@ -11,7 +11,7 @@ import { numberSliders } from "./numbers";
 
 export function recipePanel(context: Context): HTMLElement {
   const list = el("ol", { tabindex: 0, "aria-label": "Materials" });
-  const note = el("p.note");
+  const note = el("p.cut.note");
   const rows = new Map<string, HTMLLIElement>();
   context.store.watch(["recipe"], ({ recipe }) => {
     const ordered = [...recipe].sort((a, b) => meanWeight(b) - meanWeight(a));

@@ -48,7 +48,7 @@ function item({ store, actions, thumbnails }: Context, name: string): HTMLElemen
       onblur: leave,
     },
     thumbnails.canvas(name),
-    el("span.cut", name),
+    el("span.called", name),
   );
 }
 
@@ -77,11 +77,13 @@ export function gridFilters({ store }: Context): HTMLElement {
     });
     return select;
   };
-  const orders = ORDERS.map((order) => [order, `by ${order}`] as const);
+  const orders = ORDERS.map(
+    (order) => [order, order === "library" ? "library's order" : `by ${order}`] as const,
+  );
   const order = dropdown({ name: "order", "aria-label": "order" }, orders, (value: Order) =>
     store.set({ order: value }),
   );
-  const count = el("span.note", { role: "status" });
+  const count = el("span.quiet.count", { role: "status" });
   store.watch(["matches", "described"], ({ matches, described }) => {
     count.textContent = `${matches?.length ?? described.length} of ${described.length}`;
   });

@@ -4,6 +4,8 @@ import type { Vector3 } from "three";
 
 import { el } from "../../dom";
 import type { Cloud } from "../../render/cloud";
+import type { CoordinateMap } from "../../render/maps";
+import { short } from "../brdf/plot";
 
 /** A point that has a name. */
 export interface Named {
@@ -58,14 +60,19 @@ export class Labels {
     this.element = el("div.labels", this.ticks, this.names, this.asked, this.here);
   }
 
-  /** Values along the axes of a map. */
-  drawTicks(cloud: Cloud, ticks: readonly { readonly text: string; readonly at: Vector3 }[]): void {
-    const marks = ticks.map(({ text, at }) => {
-      const { x, y } = cloud.project(at);
-      const element = el("span.tick", text);
-      element.style.transform = `translate(${x}px, ${y}px) translate(-50%, -50%)`;
-      return element;
-    });
+  /** Values along the axes of a map, and at the last one what the axis is called. */
+  drawTicks(cloud: Cloud, axes: ReturnType<CoordinateMap["axes"]>): void {
+    const marks = axes.flatMap(({ name, ticks }) =>
+      ticks.map(({ value, at }, i) => {
+        const { x, y } = cloud.project(at);
+        const element = el(
+          "span.tick",
+          i === ticks.length - 1 ? `${inWords(name)} ${short(value)}` : short(value),
+        );
+        element.style.transform = `translate(${x}px, ${y}px) translate(-50%, -50%)`;
+        return element;
+      }),
+    );
     this.ticks.replaceChildren(...marks);
   }
 
@@ -130,4 +137,11 @@ export function labelPositions(anchors: readonly Anchor[], width: number): Label
     taken.push({ left, y: free });
     return { x: edge, y: free, side };
   });
+}
+
+/** What an axis is called on the page. */
+export function inWords(axis: string): string {
+  const body = /^body.([rgb])$/.exec(axis);
+  if (body) return `body ${{ r: "red", g: "green", b: "blue" }[body[1] as "r" | "g" | "b"]}`;
+  return axis;
 }

@@ -14,11 +14,10 @@ import { Cloud } from "../../render/cloud";
 import { CoordinateMap } from "../../render/maps";
 import { recipeAt } from "../../route";
 import { GRID, type State } from "../../state";
-import { short } from "../brdf/plot";
 import { turnOnKeys } from "../material/orbit";
 import { notices, sayWhenLost } from "../notices";
 import { gridFilters, materialGrid } from "./grid";
-import { Labels } from "./labels";
+import { inWords, Labels } from "./labels";
 import { listenToPointer, type Pointer } from "./pointer";
 
 const APPEARANCE = "Looks";
@@ -238,15 +237,7 @@ class SpacePicture {
     }));
     const { cloud, here, asked } = this;
     this.labels.draw(cloud, this.canvas.clientWidth, named, { here, asked, isFree: this.isFree });
-    this.labels.drawTicks(
-      cloud,
-      this.axes.flatMap(({ name, ticks }) =>
-        ticks.map(({ value, at }, i) => ({
-          text: i === ticks.length - 1 ? `${inWords(name)} ${short(value)}` : short(value),
-          at,
-        })),
-      ),
-    );
+    this.labels.drawTicks(cloud, this.axes);
   }
 
   private pointer(): Pointer {
@@ -308,13 +299,6 @@ class SpacePicture {
     const coordinates = map.coordinatesAt(this.cloud.unproject(x, y, this.here));
     return withCoordinates(view, point ?? pointOf(view, names, recipe), this.chosen, coordinates);
   }
-}
-
-/** What an axis is called on the page. */
-function inWords(axis: string): string {
-  const body = /^body.([rgb])$/.exec(axis);
-  if (body) return `body ${{ r: "red", g: "green", b: "blue" }[body[1] as "r" | "g" | "b"]}`;
-  return axis;
 }
 
 /** Each two of them. */
