@@ -18,7 +18,7 @@ from numpy.testing import assert_allclose, assert_array_equal
 from patience import PATIENCE, wait_until
 
 from halfway.brdf import TabularBrdf
-from halfway.errors import AnisotropyError
+from halfway.errors import LibraryError
 from halfway.formats import write_merl
 from halfway.formats.rgl_writer import Resolution
 from halfway.halfdiff import Grid
@@ -59,7 +59,7 @@ def test_a_library_that_depends_on_phi_h_is_refused_in_one_line() -> None:
     grid = Grid.anisotropic(4, 4, 3, 4)
     table = TabularBrdf(np.ones((3, *grid.shape), np.float32), grid, name="a")
     brushes = ProceduralLibrary("brushes", {"a": table}, grid=grid)
-    with pytest.raises(AnisotropyError) as raised:
+    with pytest.raises(LibraryError) as raised:
         create_app(brushes, page=PAGE)
     said = str(raised.value)
     assert said.startswith("brushes depends on phi_h (it is anisotropic): the explorer draws")

@@ -21,7 +21,7 @@ from typing import Any
 
 import numpy as np
 
-from ..brdf import TabularBrdf, half_scale, require_isotropic, tabulate
+from ..brdf import TabularBrdf, half_scale, tabulate
 from ..errors import OutputError
 from ..files import replacing
 from ..halfdiff import Grid
@@ -44,12 +44,14 @@ def write_blender(folder: Path, materials: Sequence[NamedBrdf], work: Work) -> P
     Raises
     ------
     OutputError
-        When they are not of one library, or are mixes, or the file cannot be written.
-    AnisotropyError
-        When the library's tables depend on phi_h.
+        When they are not of one library, or are mixes, or depend on phi_h, or the file cannot be written.
     """
     library, stops = _one_library(materials)
-    require_isotropic(library.grid, "a file for Blender", name=library.name)
+    if not library.grid.is_isotropic:
+        raise OutputError(
+            f"{library.name} depends on phi_h (it is anisotropic): a file for Blender holds tables without it. "
+            "Build a library of the means over turns with `halfway library build --grid 90x30x36`."
+        )
     space = make_space("anchored", library, work=work)
     pairs = list(combinations(stops, 2))
     ways = list(work.run(partial(_way, space), pairs, label="Ways"))

@@ -17,7 +17,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import NamedTuple
 
-from ..brdf import Brdf, TabularBrdf, own_grid, tabulate
+from ..brdf import Brdf, TabularBrdf, tabulate
 from ..errors import OutputError
 from ..files import replacing
 from ..formats import write_brdf, write_merl, write_rgl
@@ -124,7 +124,7 @@ def _write_bsdf(path: Path, brdf: Brdf, *, spectral: bool = False) -> str:
 
 
 def _table(brdf: Brdf, name: str) -> TabularBrdf:
-    return brdf if isinstance(brdf, TabularBrdf) else tabulate(brdf, own_grid(brdf), name=name)
+    return brdf if isinstance(brdf, TabularBrdf) else tabulate(brdf, brdf.own_grid, name=name)
 
 
 def _on_the_grid_of_the_database(table: TabularBrdf) -> TabularBrdf:

@@ -2,7 +2,7 @@
 
 from shlex import quote
 
-from ..errors import AnisotropyError
+from ..errors import LibraryError
 from ..library import Library
 
 
@@ -11,12 +11,12 @@ def require_drawable(library: Library) -> None:
 
     Raises
     ------
-    AnisotropyError
+    LibraryError
         Says what to do.
     """
     if not library.grid.is_isotropic:
         means = f"halfway library build {quote(library.address)} --grid 90x30x36 -o means.brdflib"
-        raise AnisotropyError(
+        raise LibraryError(
             f"{library.name} depends on phi_h (it is anisotropic): the explorer draws tables without phi_h only. "
             f"Build a library of the means over turns with `{means}`, or use `halfway render`."
         )

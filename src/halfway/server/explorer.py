@@ -70,7 +70,7 @@ class Explorer:
 
     Raises
     ------
-    AnisotropyError
+    LibraryError
         When its tables depend on phi_h.
     """
 

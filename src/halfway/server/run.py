@@ -30,7 +30,7 @@ def serve(
 
     Raises
     ------
-    AnisotropyError
+    LibraryError
         When its tables depend on phi_h.
     HalfwayError
         When this installation has no page, or no port can be had.
