@@ -265,7 +265,7 @@ def test_equal_slopes_are_the_isotropic_model():
     wi, wo = pairs(50)
     theta_h = to_half_diff(wi, wo).theta_h
     cos_i, cos_o = wi[:, 2], wo[:, 2]
-    expected = ggx(theta_h, 0.3) * smith_correlated(cos_i, cos_o, 0.3) / (4 * cos_i * cos_o)
+    expected = ggx(theta_h, 0.3) * smith_correlated(cos_i, cos_o, 0.3, 0.3) / (4 * cos_i * cos_o)
     assert_allclose(Microfacets((Lobe(0.3, 0.3),)).eval(wi, wo)[:, 0], expected, rtol=1e-9)
 
 

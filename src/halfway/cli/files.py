@@ -54,9 +54,7 @@ def convert(
     ] = None,
     format: Annotated[Suffix, typer.Option(help="Of the files in a folder.")] = Suffix.binary,
     grid: options.GridText = "",
-    spectral: Annotated[
-        bool, typer.Option(help="A .bsdf with spectra, for pbrt-v4 and spectral Mitsuba.")
-    ] = False,
+    spectral: options.Spectral = False,
     scale: options.Scale = 1.0,
     library: options.Library = "",
     force: options.Force = False,
@@ -79,8 +77,8 @@ def convert(
     out = output or target
     if out is None or (output and target):
         raise ArgumentError("convert takes IN and OUT: expected one file or folder to write.")
-    materials, cells = open_materials([source], library=library), parse_grid(grid)
-    materials = [material.scaled(scale) for material in materials] if scale != 1 else materials
+    cells = parse_grid(grid)
+    materials = [each.scaled(scale) for each in open_materials([source], library=library)]
     if not out.suffix:
         with filling(out, "convert", force=force) as folder:
             suffix = f".{format}"

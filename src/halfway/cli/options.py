@@ -42,6 +42,9 @@ GridText = Annotated[
         help="Cells in theta_h, theta_d, phi_d, or AxPxBxC with phi_h. [default: a table's own; 90x90x180]",
     ),
 ]
+Spectral = Annotated[
+    bool, typer.Option(help="A .bsdf with spectra, for pbrt-v4 and spectral Mitsuba.")
+]
 Scale = Annotated[
     float, typer.Option(help="Multiply the values: some files do not say their unit.")
 ]

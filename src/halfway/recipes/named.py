@@ -47,6 +47,8 @@ class NamedBrdf(NamedTuple):
         RecipeError
             When the number is not positive.
         """
+        if factor == 1:
+            return self
         if not (factor > 0 and np.isfinite(factor)):
             raise RecipeError(f"a scale of {factor:g} is none: expected a positive number.")
         load, of = partial(_scaled, self.load, factor), {"scaled": factor, "of": self.of}
