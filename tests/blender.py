@@ -43,6 +43,8 @@ KINDS = {
 }
 """Materials of each kind, the first of them for the check."""
 OPENPBR, MITSUBA = "openpbr by its formula", "mitsuba by its formula"
+LEAST_DB = {"table": 50, "lobes": 40, "principled": 26}
+"""Of every kind: three decibels below the worst that was measured."""
 TREES = {"table": "table", "lobes": "lobes", "principled": "Principled"}
 FITS = {
     "principled": "Cycles, Principled",
@@ -75,6 +77,8 @@ def main(arguments: Sequence[str]) -> None:
         in_blender("check", work)
         for name, errors in measured(work, open_library(LIBRARY), one_of_each()).items():
             print(f"{name}: {errors}")
+            for tree, least in LEAST_DB.items():
+                assert errors[tree]["psnr"] > least, (name, tree)
 
 
 def missing_blender() -> str:
