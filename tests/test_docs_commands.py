@@ -35,6 +35,7 @@ NOT_RUN = {
     r"^halfway .*both\.brdflib": "takes gigabytes (tested in test_anisotropy)",
     r"^halfway .*fabric\.bin": "needs a measurement (tested in test_goniometric)",
     r"^halfway fit ": "takes a minute and more (tested in test_fit and test_export_fits)",
+    r"^halfway benchmark": "takes a minute and more (tested in test_yardstick)",
     r"^halfway reproduce": "takes a minute (tested in test_paper)",
     r"^halfway .*--pairs": "takes minutes (tested in test_cli)",
     r"^halfway .*--for pbrt-v2": "takes the database's grid alone (tested in test_export_scenes)",

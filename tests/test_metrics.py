@@ -11,13 +11,13 @@ from halfway.brdf import TabularBrdf
 from halfway.brdf.metrics import MAPPINGS, difference
 from halfway.errors import FormatError
 from halfway.halfdiff import Axis, Grid, cosines
+from halfway.look import flip
 from halfway.look.appearance import (
     SHOULDER,
     appearance,
     ciede2000,
     ciede2000_difference,
     cielab_difference,
-    flip,
     shown,
     to_lab,
 )

@@ -10,6 +10,7 @@ import typer
 from ..locations import DEFAULT_LIBRARY
 from . import (
     attributes,
+    benchmark,
     check,
     console,
     demo,
@@ -54,6 +55,7 @@ COMMANDS = (
     render.render,
     report.report,
     reproduce.reproduce,
+    benchmark.benchmark,
     space.space,
     check.check,
     verify.verify,

@@ -7,6 +7,7 @@ if TYPE_CHECKING:
     from . import figures, recovered
     from .fits import MODEL_OF, model_of, write_fit
     from .materials import recipe_beside, write_material, write_materials, write_recipe
+    from .pages import html_page, markdown_table
     from .report import Report, TableRow, write_report
     from .routes import write_route
     from .scene_folders import write_scenes
@@ -19,6 +20,8 @@ __all__ = [
     "TableRow",
     "Written",
     "figures",
+    "html_page",
+    "markdown_table",
     "model_of",
     "recipe_beside",
     "recovered",
@@ -37,6 +40,7 @@ __all__ = [
 _HOMES = {
     "fits": ("MODEL_OF", "model_of", "write_fit"),
     "materials": ("recipe_beside", "write_material", "write_materials", "write_recipe"),
+    "pages": ("html_page", "markdown_table"),
     "report": ("Report", "TableRow", "write_report"),
     "routes": ("write_route",),
     "scene_folders": ("write_scenes",),

@@ -1,6 +1,7 @@
 """Looks: pictures and samples of a library's materials, made of their tables alone, and how different they look."""
 
-from .appearance import appearance, ciede2000_difference, cielab_difference, flip, shown
+from .appearance import appearance, ciede2000_difference, cielab_difference, shown
+from .flip import flip
 from .images import Looks, most_different
 from .lit_sphere import JUDGING_SCENE, PACING_SCENE, SphereOperator, SphereScene
 from .portraits import N_SPHERES, portrait, recipes_png, table_png, to_png

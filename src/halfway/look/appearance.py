@@ -10,16 +10,13 @@ three steps:
 The shoulder keeps a mirror-like peak, 40 times white and more, from ruling a mean, and still tells a strong peak from a
 stronger one; a clip would not. Everything is continuous in the picture, so it can pace a route.
 
-References: CIE 15 (the difference of 1976); P. Andersson et al., "FLIP: A Difference Evaluator for Alternating Images", HPG 2020.
+Reference: CIE 15 (the difference of 1976).
 """
-
-from importlib import import_module
 
 import numpy as np
 from jaxtyping import Float
 
-from ..colour import ciede2000, to_lab, to_srgb
-from ..errors import HalfwayError
+from ..colour import ciede2000, to_lab
 
 SHOULDER = 0.75
 """Linear value above which highlights are compressed."""
@@ -57,21 +54,3 @@ def cielab_difference(a: Lab, b: Lab) -> Means:
 def ciede2000_difference(a: Lab, b: Lab) -> Means:
     """Mean over pixels of CIEDE2000, with kL = kC = kH = 1."""
     return ciede2000(a, b).mean(axis=-1)
-
-
-def flip(a: Float[np.ndarray, "height width 3"], b: Float[np.ndarray, "height width 3"]) -> float:
-    """Mean FLIP of two pictures (Andersson et al. 2020), in [0, 1], as `shown` at 67 pixels per degree.
-
-    Raises
-    ------
-    HalfwayError
-        Where the package ``flip-evaluator`` is not installed.
-    """
-    try:
-        evaluate = import_module("flip_evaluator").evaluate
-    except ImportError:
-        raise HalfwayError(
-            "FLIP needs the package flip-evaluator, which is not installed: pip install flip-evaluator."
-        ) from None
-    pictures = (np.ascontiguousarray(to_srgb(shown(x)), np.float32) for x in (a, b))
-    return float(evaluate(*pictures, "LDR", applyMagma=False)[1])

@@ -1,9 +1,9 @@
 """The page: our tables and pictures beside the paper's numbers, as Markdown and as HTML."""
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator
 from pathlib import Path
 
-from ..export import TableRow
+from ..export import TableRow, html_page, markdown_table
 from ..files import replacing
 from .reported import (
     N_COMPONENTS,
@@ -15,28 +15,11 @@ from .reported import (
 )
 from .reproduction import MeasuredRun, Reproduction
 
-STYLE = """
-body { max-width: 62rem; margin: 3rem auto; padding: 0 1.5rem; color: #222; background: #fff;
-       font: 16px/1.6 system-ui, sans-serif; }
-h1, h2 { line-height: 1.25; margin-top: 2.5rem; }
-img { max-width: 100%; display: block; margin: 1rem 0; }
-table { border-collapse: collapse; margin: 1rem 0; font-variant-numeric: tabular-nums; }
-th, td { padding: .35rem 1rem .35rem 0; border-bottom: 1px solid #ddd; text-align: left; }
-code { font-size: .9em; }
-"""
-
 
 def write_page(folder: Path, found: Reproduction) -> None:
     """Write ``page.md`` and ``page.html`` beside the pictures that they show."""
-    from markdown_it import MarkdownIt
-
     text = "\n\n".join(_sections(found)) + "\n"
-    body = MarkdownIt("commonmark").enable("table").render(text)
-    title = "The paper's figures and tables"
-    html = (
-        f'<!doctype html>\n<html lang="en"><meta charset="utf-8"><title>{title}</title>\n'
-        f"<style>{STYLE}</style>\n<body>\n{body}</body></html>\n"
-    )
+    html = html_page("The paper's figures and tables", text)
     for name, content in (("page.md", text), ("page.html", html)):
         with replacing(folder / name) as temporary:
             temporary.write_text(content, encoding="utf-8")
@@ -67,7 +50,7 @@ def _table_1(found: Reproduction) -> Iterator[str]:
     columns = (
         "components", "the paper", "ours", "uncentred", "over all materials", "variance left",
     )  # fmt: skip
-    yield _table(columns, map(_table_1_row, found.report.table_1))
+    yield markdown_table(columns, map(_table_1_row, found.report.table_1))
     yield (
         "*Ours* is the mean over materials and channels of |u - u_k| / |u|, where u is a material minus the mean "
         "material and u_k its reconstruction from k components. The paper names its number *mean relative error* and "
@@ -150,7 +133,7 @@ def _comparison(found: Reproduction) -> Iterator[str]:
         "spaced t; 1 is the least for both."
     )
     columns = "run", "detour: paper", "linear", "anchored", "leap: paper", "linear", "anchored"
-    yield _table(
+    yield markdown_table(
         columns,
         (
             (_way(run), *(f"{by[space]:.2f}" for by in (run.detour, run.jump) for space in by))
@@ -161,7 +144,7 @@ def _comparison(found: Reproduction) -> Iterator[str]:
 
 def _costs(found: Reproduction) -> Iterator[str]:
     yield "## What it costs"
-    yield _table(
+    yield markdown_table(
         ("", "the paper", "ours"),
         (
             ("a new material", f"{SECONDS_PER_MATERIAL} s", f"{found.seconds_per_material:.2g} s"),
@@ -212,8 +195,3 @@ def _stood_in(run: MeasuredRun) -> str:
 
 def _picture(name: str, what: str) -> str:
     return f"![{what}]({name})"
-
-
-def _table(columns: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
-    lines = (columns, ["---"] * len(columns), *rows)
-    return "\n".join(f"| {' | '.join(line)} |" for line in lines)

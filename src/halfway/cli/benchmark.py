@@ -1,0 +1,95 @@
+"""``halfway benchmark``: the yardstick."""
+
+from enum import StrEnum
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from ..locations import DEFAULT_LIBRARY
+from .console import say, show, work
+from .options import AsJson, Force, GridText, Lib
+
+
+class SplitName(StrEnum):
+    liu2023 = "liu2023"
+    kind = "kind"
+    leave_one_out = "leave-one-out"
+
+
+Quick = Annotated[
+    bool, typer.Option("--quick", help="A coarse grid, one split, few settings: a minute or two.")
+]
+Splits = Annotated[
+    list[SplitName] | None,
+    typer.Option("--split", help="One or more. [default: all; of the quick one, liu2023]"),
+]
+Answers = Annotated[
+    Path | None,
+    typer.Option(metavar="CSV", help="Answered triplets: reference,a,b,votes_a,votes_b."),
+]
+Process = Annotated[
+    Path | None,
+    typer.Option("--neural-process", metavar="H5", help="The networks of Zheng et al. 2021."),
+]
+PageFolder = Annotated[
+    Path | None,
+    typer.Option("--output", "-o", metavar="DIR", help="The folder to write. [default: benchmark]"),
+]
+
+
+def benchmark(
+    lib: Lib = DEFAULT_LIBRARY,
+    output: PageFolder = None,
+    quick: Quick = False,
+    split: Splits = None,
+    grid: GridText = "",
+    seed: Annotated[int, typer.Option(help="Of directions that are drawn.")] = 0,
+    answers: Answers = None,
+    neural_process: Process = None,
+    as_json: AsJson = False,
+    force: Force = False,
+) -> None:
+    """Measure how materials are reconstructed, recovered, mixed and compared, on one page beside what others published.
+
+    \b
+    halfway benchmark --quick
+    halfway benchmark merl_nbrdf.zip -o yardstick
+    halfway benchmark merl.brdflib --split liu2023 --answers answers.csv --neural-process weights.h5
+    """
+    import json
+    from contextlib import nullcontext
+
+    from halfway import yardstick
+    from halfway.batch import filling
+    from halfway.library import open_library
+
+    from .arguments import parse_grid
+
+    reconstructions, recoveries = dict(yardstick.RECONSTRUCTIONS), dict(yardstick.RECOVERIES)
+    if neural_process:
+        process = yardstick.NeuralProcess.read(neural_process)
+        reconstructions["neural process"] = process.reconstruct
+        recoveries["neural process, planned directions"] = yardstick.RecoveryMethod(process.recover)
+    library = open_library(lib)
+    folder = output or (None if as_json else Path("benchmark"))
+    with filling(folder, "benchmark", force=force) if folder else nullcontext() as scratch:
+        measured = yardstick.benchmark(
+            library,
+            quick=quick,
+            grid=parse_grid(grid),
+            splits=split,
+            seed=seed,
+            answers=answers,
+            reconstructions=reconstructions,
+            recoveries=recoveries,
+            work=work(),
+        )
+        if scratch:
+            yardstick.write_page(scratch, measured)
+    if as_json:
+        print(json.dumps(measured.to_json(), indent=1))
+    else:
+        show(*measured.lines())
+    if folder:
+        say(f"{folder}: benchmark.html, and every number in benchmark.json")

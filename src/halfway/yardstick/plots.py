@@ -1,0 +1,53 @@
+"""Plots of results: a score over how many numbers or samples it took."""
+
+import base64
+import io
+from collections.abc import Sequence
+from typing import Any
+
+from ..export import figures
+from .results import Result
+from .scores import MEASURES
+
+MARKS = "osD^vP*X<>h"
+
+
+def curves(results: Sequence[Result], measures: Sequence[str], setting: str) -> str:
+    """A picture as an address that holds it: one plot for each measure, a line for each method."""
+    import matplotlib as mpl
+    import matplotlib.ticker
+    from matplotlib.figure import Figure
+
+    with mpl.rc_context(figures.STYLE | {"svg.fonttype": "none"}):
+        figure = Figure(figsize=(10, 4.6), layout="constrained")
+        axes = figure.subplots(1, len(measures), squeeze=False)[0]
+        for ax, measure in zip(axes, measures, strict=True):
+            _draw(ax, results, measure)
+            ax.set(xlabel=setting, xscale="log", title=MEASURES[measure].label)
+            settings = sorted({r.setting for r in results})
+            ax.set_xticks(settings, [str(x) for x in settings], fontsize=8)
+            ax.minorticks_off()
+            if not MEASURES[measure].larger_is_better:
+                ax.set_yscale("log")
+                for each in (ax.yaxis.set_major_formatter, ax.yaxis.set_minor_formatter):
+                    each(mpl.ticker.FuncFormatter(lambda y, _: f"{y:g}"))
+        handles, labels = axes[0].get_legend_handles_labels()
+        figure.legend(handles, labels, loc="outside lower center", ncols=3, fontsize=9)
+        file = io.BytesIO()
+        figure.savefig(file, format="svg", metadata={"Date": None})
+    return "data:image/svg+xml;base64," + base64.b64encode(file.getvalue()).decode()
+
+
+def _draw(ax: Any, results: Sequence[Result], measure: str) -> None:
+    methods = dict.fromkeys(result.method for result in results)
+    for mark, (i, method) in zip(MARKS * 3, enumerate(methods), strict=False):
+        points = sorted((r for r in results if r.method == method), key=lambda r: r.setting)
+        x, y = [r.setting for r in points], [r.scores[measure] for r in points]
+        (line,) = ax.plot(x, y, marker=mark, ms=5, lw=1.4, label=method, color=f"C{i % 10}")
+        drawn = [r for r in points if r.low]
+        if drawn:
+            low, high = (
+                [end[measure] for end in ends]
+                for ends in zip(*((r.low, r.high) for r in drawn), strict=True)
+            )
+            ax.fill_between([r.setting for r in drawn], low, high, color=line.get_color(), alpha=0.15, lw=0)  # fmt: skip
