@@ -114,16 +114,8 @@ class Renderer:
         self.spp = spp
         self.seed = seed
         self.bounces = self.scene.bounces if bounces is None else bounces
-        _require("width", size[0], 1, LARGEST_SIZE)
-        _require("height", size[1], 1, LARGEST_SIZE)
-        _require("spp", spp, 1, LARGEST_SPP)
-        _require("seed", seed, 0, 2**32 - 1)
-        _require("bounces", self.bounces, 1, 1000)
-        if not abs(turn_degrees) <= LARGEST_TURN:
-            raise RenderError(
-                f"a turn of {turn_degrees:g} degrees is none: expected {-LARGEST_TURN} to {LARGEST_TURN}."
-            )
         self.turn_degrees = turn_degrees
+        self._require_numbers()
         self._variant = load_mitsuba(device).variant()
         if self.exact:
             register(device)
@@ -145,6 +137,17 @@ class Renderer:
 
             self._stage = Stage(
                 self.scene, size=size, env=env, mesh=mesh, turn_degrees=turn_degrees
+            )
+
+    def _require_numbers(self) -> None:
+        _require("width", self.size[0], 1, LARGEST_SIZE)
+        _require("height", self.size[1], 1, LARGEST_SIZE)
+        _require("spp", self.spp, 1, LARGEST_SPP)
+        _require("seed", self.seed, 0, 2**32 - 1)
+        _require("bounces", self.bounces, 1, 1000)
+        if not abs(self.turn_degrees) <= LARGEST_TURN:
+            raise RenderError(
+                f"a turn of {self.turn_degrees:g} degrees is none: expected {-LARGEST_TURN} to {LARGEST_TURN}."
             )
 
     def turned(self, degrees: float) -> "Renderer":
