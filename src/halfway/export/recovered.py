@@ -157,8 +157,8 @@ def _lightness(brdf: Brdf, wi: np.ndarray, wo: np.ndarray) -> np.ndarray:
 
 
 def _pairs(ax: "Axes", plan: Plan) -> None:
-    a = Angles.of(plan.wi, plan.wo)
-    for i, (theta_i, phi_i, theta_o, phi_o) in enumerate(zip(*a, strict=True), 1):
+    angles = np.stack(Angles.of(plan.wi, plan.wo), axis=1)
+    for i, (theta_i, phi_i, theta_o, phi_o) in enumerate(angles, 1):
         turned = phi_o - phi_i
         ax.plot([0, turned], np.degrees([theta_i, theta_o]), color="#bbb", lw=0.7)
         ax.plot(0, np.degrees(theta_i), "o", color="#d5962a", ms=5)
