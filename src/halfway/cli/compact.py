@@ -57,7 +57,7 @@ def compact(
     halfway library compact merl_nbrdf.zip -k 108 -o neural.brdfc
 
     \b
-    One material of the paper's k components, as a table:
+    One material of k components as the paper has them, as a table:
     halfway library compact merl.brdflib -k 5 --mapping linear --no-shared --precision float32 -o five.brdfc
     halfway convert five.brdfc:chrome chrome-5.binary
     """

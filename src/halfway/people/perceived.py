@@ -80,7 +80,7 @@ class Perceived(NamedTuple):
     value: float
     """About 0, not at all, to 1, very."""
     trust: str
-    """high, fair or low: by how well a straight line through the five numbers explains the attribute on MERL's materials
+    """How far to trust it, "high", "fair" or "low", by how well a straight line through the five numbers explains the attribute on MERL's materials
     (`EXPLAINED`), and low for what lies beyond those, which people rated, in any of the numbers."""
 
 
