@@ -157,15 +157,14 @@ def _lightness(brdf: Brdf, wi: np.ndarray, wo: np.ndarray) -> np.ndarray:
 
 
 def _pairs(ax: "Axes", plan: Plan) -> None:
-    a = Angles.of(plan.wi, plan.wo)
-    for i in range(len(plan.wi)):
-        theta_i, phi_i, theta_o, phi_o = (float(np.ravel(angle)[i]) for angle in a)
+    angles = np.stack(Angles.of(plan.wi, plan.wo), axis=1)
+    for i, (theta_i, phi_i, theta_o, phi_o) in enumerate(angles, 1):
         turned = phi_o - phi_i
         ax.plot([0, turned], np.degrees([theta_i, theta_o]), color="#bbb", lw=0.7)
         ax.plot(0, np.degrees(theta_i), "o", color="#d5962a", ms=5)
         ax.plot(turned, np.degrees(theta_o), "o", color="#2f6dc8", ms=5)
         ax.annotate(
-            str(i + 1), (turned, np.degrees(theta_o)), xytext=(3, 3), textcoords="offset points"
+            str(i), (turned, np.degrees(theta_o)), xytext=(3, 3), textcoords="offset points"
         )
     ax.set(rlim=(0, 90), rticks=[30, 60, 90])
     ax.set_title("Light (gold, turned to 0°) and viewer (blue)")

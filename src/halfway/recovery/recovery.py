@@ -152,9 +152,10 @@ def recover(
     >>> import halfway
     >>> library = halfway.open_library("builtin:merl-abc")
     >>> plan = halfway.plan(library, 2)
-    >>> values = library.brdf("teflon").eval(plan.wi, plan.wo)
-    >>> halfway.recover(library, halfway.Measurements(plan.wi, plan.wo, values)).mix().names
-    ('teflon',)
+    >>> values = library.material("teflon").eval(plan.wi, plan.wo)
+    >>> recovery = halfway.recover(library, halfway.Measurements(plan.wi, plan.wo, values))
+    >>> "teflon" in recovery.mix().names
+    True
 
     Raises
     ------
