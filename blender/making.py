@@ -6,7 +6,8 @@ from pathlib import Path
 import bpy
 
 from . import nodes
-from .halfway.brdf import Brdf, TabularBrdf, require_isotropic, tabulate
+from .halfway.brdf import Brdf, TabularBrdf, tabulate
+from .halfway.errors import FormatError
 from .halfway.fit import fit
 from .halfway.halfdiff import MERL
 from .lobes import Lobes
@@ -30,7 +31,11 @@ def show(
     material: bpy.types.Material, brdf: Brdf, kind: str, *, parameters: dict | None = None
 ) -> None:
     """Let a material show another BRDF."""
-    require_isotropic(brdf, "a node tree")
+    if not brdf.is_isotropic:
+        raise FormatError(
+            f"{material.name} depends on phi_h (it is anisotropic): the node trees are of isotropic materials. "
+            "Take the mean over turns about its normal."
+        )
     match kind:
         case "principled":
             nodes.principled(material, parameters or fitted(brdf))

@@ -58,6 +58,8 @@ def test_a_material_has_both_shaders_with_the_numbers_of_the_fits(stage):
         shader, *_ = material.ComputeSurfaceSource(context)
         assert shader.GetIdAttr().Get() == (OPENPBR_ID if context else "UsdPreviewSurface")
         for name, value in model.parameters().items():
+            if name == "tangent_rotation":
+                continue
             assert_allclose(shader.GetInput(names.get(name, name)).Get(), value, rtol=1e-6)
 
 
@@ -66,7 +68,8 @@ def test_materialx_has_the_node_and_its_inputs():
     library = mx.createDocument()
     mx.loadLibraries(mx.getDefaultDataLibraryFolders(), mx.getDefaultDataSearchPath(), library)
     node = library.getNodeDef(OPENPBR_ID)
-    assert all(node.getActiveInput(name) for name in OPENPBR.parameters())
+    names = OPENPBR.parameters().keys() - {"tangent_rotation"}
+    assert all(node.getActiveInput(name) for name in names)
 
 
 @pytest.mark.usefixtures("stage")

@@ -41,7 +41,8 @@ def _write_usd(folder: Path, materials: Sequence[NamedBrdf], work: Work) -> Scen
 
     fits: list[Fits] = []
     for material in work.track(materials, "Exporting", len(materials)):
-        brdf = material.load()
+        # USD's sphere has no tangents.
+        brdf = material.load().turned_mean()
         fits.append(Fits(*(fit(brdf, model, name=material.label) for model in Fits._fields)))
     write_usd(folder, fits)
     # Materials of one library share most lines.
@@ -62,7 +63,7 @@ def _write_blender(folder: Path, materials: Sequence[NamedBrdf], work: Work) -> 
 
 
 _USD = f"""`{MATERIALS}` holds each material as MaterialX's OpenPBR and as UsdPreviewSurface, both fitted; what each fit is worth stands in its
-`doc`. Add the layer to a stage and bind `/Materials/NAME`."""
+`doc`. An anisotropic material is fitted as its mean over turns about the normal. Add the layer to a stage and bind `/Materials/NAME`."""
 
 
 def _origin(material: NamedBrdf) -> str:

@@ -105,6 +105,8 @@ def _material(name: str, fits: Fits) -> str:
     true_name = printable(fits.openpbr.name) or name
     about = f"{true_name}, {fits.openpbr.summary}; {fits.preview.summary}"
     at = f"/Materials/{name}"
+    openpbr = fits.openpbr.model.parameters()
+    openpbr.pop("tangent_rotation")  # the node has none, and the materials are isotropic
     preview = {_PREVIEW[ours]: value for ours, value in fits.preview.model.parameters().items()}
     return f"""    def Material "{name}" (
         displayName = {_quoted(true_name)}
@@ -119,7 +121,7 @@ def _material(name: str, fits: Fits) -> str:
         def Shader "openpbr"
         {{
             uniform token info:id = "ND_{NODES["openpbr"]}_surfaceshader"
-{_inputs(fits.openpbr.model.parameters())}
+{_inputs(openpbr)}
             token outputs:out
         }}
 
