@@ -15,8 +15,8 @@ MARKS = "osD^vP*X<>h"
 def curves(results: Sequence[Result], measures: Sequence[str], setting: str) -> str:
     """A picture as an address that holds it: one plot for each measure, a line for each method."""
     import matplotlib as mpl
-    import matplotlib.ticker
     from matplotlib.figure import Figure
+    from matplotlib.ticker import StrMethodFormatter
 
     with mpl.rc_context(figures.STYLE | {"svg.fonttype": "none"}):
         figure = Figure(figsize=(10, 4.6), layout="constrained")
@@ -29,8 +29,8 @@ def curves(results: Sequence[Result], measures: Sequence[str], setting: str) -> 
             ax.minorticks_off()
             if not MEASURES[measure].larger_is_better:
                 ax.set_yscale("log")
-                for each in (ax.yaxis.set_major_formatter, ax.yaxis.set_minor_formatter):
-                    each(mpl.ticker.FuncFormatter(lambda y, _: f"{y:g}"))
+                ax.yaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
+                ax.yaxis.set_minor_formatter(StrMethodFormatter("{x:g}"))
         handles, labels = axes[0].get_legend_handles_labels()
         figure.legend(handles, labels, loc="outside lower center", ncols=3, fontsize=9)
         file = io.BytesIO()
