@@ -24,7 +24,7 @@ def curves(results: Sequence[Result], measures: Sequence[str], setting: str) -> 
         for ax, measure in zip(axes, measures, strict=True):
             _draw(ax, results, measure)
             ax.set(xlabel=setting, xscale="log", title=MEASURES[measure].label)
-            settings = sorted({r.setting for r in results})
+            settings = sorted(_shared(results))
             ax.set_xticks(settings, [str(x) for x in settings], fontsize=8)
             ax.minorticks_off()
             if not MEASURES[measure].larger_is_better:
@@ -36,6 +36,12 @@ def curves(results: Sequence[Result], measures: Sequence[str], setting: str) -> 
         file = io.BytesIO()
         figure.savefig(file, format="svg", metadata={"Date": None})
     return "data:image/svg+xml;base64," + base64.b64encode(file.getvalue()).decode()
+
+
+def _shared(results: Sequence[Result]) -> set[int]:
+    """The settings that every method was asked for, where it has a choice."""
+    each = [r.method for r in results]
+    return {r.setting for r in results if each.count(r.method) > 1} or {r.setting for r in results}
 
 
 def _draw(ax: Any, results: Sequence[Result], measure: str) -> None:
