@@ -65,7 +65,10 @@ def _head(measured: Benchmark) -> str:
 def _in_short(measured: Benchmark) -> str:
     """The best of each task, in a sentence each."""
     said: list[str] = []
-    for task, what in (("reconstruct", "numbers"), ("recover", "measured directions")):
+    for task, said_of, what in (
+        ("reconstruct", "With", "numbers"),
+        ("recover", "From", "measured directions"),
+    ):
         results = measured.of(task, next((r.split for r in measured.of(task)), ""))
         settings = sorted({r.setting for r in results if r.setting in SETTINGS})
         for setting in settings[-2:]:
@@ -73,7 +76,7 @@ def _in_short(measured: Benchmark) -> str:
                 (r for r in results if r.setting == setting), key=lambda r: r.scores["mean-log"]
             )
             said.append(
-                f"- Of {setting} {what}, *{best.method}* makes the nearest tables: {_shown(best, 'psnr.judging')} dB in pictures of a sphere."
+                f"- {said_of} {setting} {what}, *{best.method}* makes the nearest tables: {_shown(best, 'psnr.judging')} dB in pictures of a sphere."
             )
     return "## In short\n\n" + "\n".join(said)
 

@@ -15,8 +15,8 @@ MARKS = "osD^vP*X<>h"
 def curves(results: Sequence[Result], measures: Sequence[str], setting: str) -> str:
     """A picture as an address that holds it: one plot for each measure, a line for each method."""
     import matplotlib as mpl
-    import matplotlib.ticker
     from matplotlib.figure import Figure
+    from matplotlib.ticker import StrMethodFormatter
 
     with mpl.rc_context(figures.STYLE | {"svg.fonttype": "none"}):
         figure = Figure(figsize=(10, 4.6), layout="constrained")
@@ -24,18 +24,24 @@ def curves(results: Sequence[Result], measures: Sequence[str], setting: str) -> 
         for ax, measure in zip(axes, measures, strict=True):
             _draw(ax, results, measure)
             ax.set(xlabel=setting, xscale="log", title=MEASURES[measure].label)
-            settings = sorted({r.setting for r in results})
+            settings = sorted(_shared(results))
             ax.set_xticks(settings, [str(x) for x in settings], fontsize=8)
             ax.minorticks_off()
             if not MEASURES[measure].larger_is_better:
                 ax.set_yscale("log")
-                for each in (ax.yaxis.set_major_formatter, ax.yaxis.set_minor_formatter):
-                    each(mpl.ticker.FuncFormatter(lambda y, _: f"{y:g}"))
+                ax.yaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
+                ax.yaxis.set_minor_formatter(StrMethodFormatter("{x:g}"))
         handles, labels = axes[0].get_legend_handles_labels()
         figure.legend(handles, labels, loc="outside lower center", ncols=3, fontsize=9)
         file = io.BytesIO()
         figure.savefig(file, format="svg", metadata={"Date": None})
     return "data:image/svg+xml;base64," + base64.b64encode(file.getvalue()).decode()
+
+
+def _shared(results: Sequence[Result]) -> set[int]:
+    """The settings that every method was asked for, where it has a choice."""
+    each = [r.method for r in results]
+    return {r.setting for r in results if each.count(r.method) > 1} or {r.setting for r in results}
 
 
 def _draw(ax: Any, results: Sequence[Result], measure: str) -> None:

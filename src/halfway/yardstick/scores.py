@@ -83,10 +83,10 @@ class Judge:
     def scores(self, truth: Float32[np.ndarray, "3 p"], estimate: np.ndarray) -> Scores:
         """All `MEASURES` of an estimate; what is negative in it counts as 0."""
         sound = np.maximum(estimate, 0).astype(np.float32)
-        tables = [TabularBrdf(x.reshape(3, *self.grid.shape), self.grid) for x in (truth, sound)]
+        f, g = (TabularBrdf(x.reshape(3, *self.grid.shape), self.grid) for x in (truth, sound))
         scores = {"mean-log": _mean_log(self.grid, truth, sound)}
         scores |= {
-            name: difference(*tables, name).below
+            name: difference(f, g, name).below
             for name in TABLE_MEASURES.keys() & metrics.MAPPINGS.keys()
         }
         for scene, operator in zip(SCENES, self._operators, strict=True):
