@@ -22,6 +22,7 @@ from halfway.library import ProceduralLibrary
 ROOT = Path(__file__).parents[1]
 PAGES = sorted([ROOT / "README.md", ROOT / "CONTRIBUTING.md", *(ROOT / "docs").glob("*.md")])
 COARSE = Grid.merl(18, 12, 12)
+COARSE_ANISOTROPIC = Grid.anisotropic(18, 12, 8, 12)
 
 NOT_RUN = {
     r"^halfway fetch ": "downloads",
@@ -83,7 +84,8 @@ def small(monkeypatch, tmp_path, cache):
     """Tables of the built-in library on a coarse grid, an empty folder, and a cache of our own."""
 
     def coarse(*words, **options):
-        return ProceduralLibrary(*words, **{**options, "grid": COARSE})
+        grid = COARSE if options["grid"].is_isotropic else COARSE_ANISOTROPIC
+        return ProceduralLibrary(*words, **{**options, "grid": grid})
 
     monkeypatch.setattr("halfway.library.opening.ProceduralLibrary", coarse)
     monkeypatch.chdir(tmp_path)

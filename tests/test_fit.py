@@ -353,7 +353,9 @@ def test_unmeasured_samples_do_not_count():
 
 
 def test_an_unknown_model_is_named():
-    with pytest.raises(HalfwayError, match="no model 'phong': expected openpbr, principled, gltf"):
+    with pytest.raises(
+        HalfwayError, match="no model 'phong': expected openpbr, principled, cycles, gltf"
+    ):
         fit(ABC["teflon"], "phong")
 
 

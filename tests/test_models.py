@@ -167,7 +167,7 @@ def test_an_unknown_set_is_one_line_with_the_known_ones():
     with pytest.raises(LibraryError) as error:
         builtin("merl-xyz")
     assert str(error.value) == (
-        "builtin:merl-xyz is not in this package: choose one of merl-abc, merl-sgd, synthetic-N "
+        "builtin:merl-xyz is not in this package: choose one of merl-abc, merl-sgd, anisotropic, synthetic-N "
         "(such as synthetic-2000, or synthetic-2000-7 for seed 7)."
     )
 

@@ -61,6 +61,8 @@ RESOLUTIONS = tuple(Resolution(n, 2 * n) for n in (16, 32, 48, 64))
 """0.5, 2.6, 8 and 18 MB; of an anisotropic material 7, 21 and 52 MB, or four times that where no part of a turn is as another.
 Four to six times as much with spectra."""
 
+N_ANISOTROPIC = 3
+"""So many of them are tried for an anisotropic material."""
 MIN_PSNR = 50.0
 
 
@@ -111,7 +113,7 @@ def write_rgl(
     normals = Normals.of(brdf)
     fields, used, reached = {}, RESOLUTIONS[0], Quality(0.0, 1.0)
     # Files of several azimuths are large; what the last size brings is not seen.
-    usual = RESOLUTIONS if brdf.is_isotropic else RESOLUTIONS[:-1]
+    usual = RESOLUTIONS if brdf.is_isotropic else RESOLUTIONS[:N_ANISOTROPIC]
     for used in [resolution] if resolution else usual:
         fields = _fields(brdf, normals, used, description)
         reached = quality(lit_sphere(from_fields(fields, path.name)), expected)
