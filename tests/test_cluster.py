@@ -134,7 +134,7 @@ def test_tables_of_a_route_are_the_same_bytes(cluster, library, tmp_path):
 
 def test_spaces_measure_the_same(cluster, library):
     here, there = (
-        compare_spaces(library, n_pairs=3, work=Work(engine=engine))
+        compare_spaces(library, n_pairs=1, work=Work(engine=engine))
         for engine in (Threads(), cluster)
     )
     assert here == there

@@ -223,7 +223,7 @@ BRUSHED = [
         anisotropy_rotation=1.0,
     ),
 ]
-BRUSHED_GRID = Grid.anisotropic(48, 36, 12, 24, period=np.pi)
+BRUSHED_GRID = Grid.anisotropic(40, 36, 12, 12, period=np.pi)
 
 
 @pytest.mark.parametrize("truth", BRUSHED, ids=lambda m: type(m).__name__)
@@ -236,10 +236,9 @@ def test_a_table_of_an_anisotropic_model_gives_its_anisotropy_and_rotation_back(
     assert_allclose(*where, atol=0.02)
 
 
-@pytest.mark.parametrize("name", ["openpbr", "gltf"])
-def test_other_models_find_the_direction(name):
+def test_another_model_finds_the_direction():
     truth = BRUSHED[0]
-    found = fit(truth, name)
+    found = fit(truth, "openpbr")
     assert found.picture.psnr > 32
     direction, expected = (getattr(model, model.grain[1]) for model in (found.model, truth))
     assert_allclose(direction, expected, atol=0.03)

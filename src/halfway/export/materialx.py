@@ -45,6 +45,9 @@ def to_materialx(fit: Fit) -> str:
     name = identifier(fit.name or "material")
     surface = document.addNode(NODES[fit.model_name], f"{name}_surface", "surfaceshader")
     parameters = fit.model.parameters()
+    # MaterialX before 1.39.4 has no grain in its node of glTF's material.
+    for parameter in fit.model.grain if fit.model.is_isotropic else ():
+        del parameters[parameter]
     turn = parameters.pop("tangent_rotation", 0.0)
     if isinstance(turn, float) and turn:
         surface.setConnectedNode("geometry_tangent", _turned_tangent(document, name, turn))
