@@ -44,7 +44,7 @@ def main() -> None:
     print(f"{seconds:.0f} s, downloads included, {len(sizes)} packages, {_mb(sizes.values())} MB")
     for what, names in FOR.items():
         print(
-            f"{_mb(sizes.get(name, 0) for name in names):6} MB  {what}: {', '.join(sorted(names))}"
+            f"{_mb(sizes.get(name, 0) for name in names):6} MB  {what}: {', '.join(f'{n} {_mb([sizes.get(n, 0)])}' for n in sorted(names))}"
         )
     named = set().union(*FOR.values())
     print(f"{_mb(size for name, size in sizes.items() if name not in named):6} MB  all others")

@@ -135,6 +135,16 @@ def test_any_zarr_reader_reads_it(tmp_path):
     assert array.attrs["unit"] == "1/sr"
 
 
+def test_a_store_replaces_another_program_s_whole(tmp_path):
+    """Whatever is in it: groups are folders."""
+    path = tmp_path / "cloth.zarr"
+    (path / "group" / "array").mkdir(parents=True)
+    (path / "zarr.json").write_text("{}")
+    write_zarr(path, tabulate(CLOTH, GRID))
+    assert {file.name for file in path.iterdir()} == {"zarr.json", "c.0.0.0.0.0.0"}
+    assert list(tmp_path.iterdir()) == [path]
+
+
 def test_stores_are_found_among_other_files_and_named_one_by_one(tmp_path):
     write_zarr(tmp_path / "a" / "cloth.zarr", tabulate(CLOTH, GRID, name="cloth"))
     (tmp_path / "a" / "README.txt").write_text("cloth")

@@ -47,7 +47,7 @@ def plan(
     """
     import numpy as np
 
-    from halfway.export import recovered
+    from halfway.export import figures, recovered
     from halfway.measurements import Angles, read_measurements, write_directions
     from halfway.recovery import plan as planned
 
@@ -57,7 +57,7 @@ def plan(
         if output:
             write_directions(output, found.wi, found.wo)
         if picture:
-            recovered.save(picture, recovered.planned(found))
+            figures.save(picture, recovered.planned(found))
     angles = np.degrees(np.stack(Angles.of(found.wi, found.wo), axis=1))
     if as_json:
         keys = ("theta_i", "phi_i", "theta_o", "phi_o")

@@ -85,7 +85,7 @@ def recover(
     halfway recover paint.csv --library merl.brdflib --as completion --repair -o paint.binary
     halfway recover paint.csv -o paint.json --picture sure.png
     """
-    from halfway.export import recovered, write_material, write_recipe
+    from halfway.export import figures, recovered, write_material, write_recipe
     from halfway.measurements import read_measurements
     from halfway.recipes import Blend, NamedBrdf, mix
     from halfway.recovery import recover as recover_material
@@ -108,7 +108,7 @@ def recover(
             completion = recovery.completion(level, work=work())
             tables["completion"] = completion.table
             if picture:
-                recovered.save(picture, recovered.recovered(recovery, completion, tables["mix"]))
+                figures.save(picture, recovered.recovered(recovery, completion, tables["mix"]))
             if answer is Answer.completion:
                 material = _material(completion.table, repair)
         if output and wants_recipe:

@@ -121,10 +121,15 @@ def spaces(measured: Sequence[Mapping[str, Any]], label: str) -> "Figure":
 def write(stem: Location, figure: "Figure") -> None:
     """Write a figure as ``stem.png`` and ``stem.svg``."""
     for suffix in (".png", ".svg"):
-        with replacing(stem.with_suffix(suffix)) as temporary:
-            figure.savefig(
-                temporary, dpi=160, metadata={"Date": None} if suffix == ".svg" else None
-            )
+        save(stem.with_suffix(suffix), figure)
+
+
+def save(path: Location, figure: "Figure") -> None:
+    """Write a figure as its suffix says: .png, .svg, .pdf, .webp; without one as .png."""
+    kind = path.suffix.lstrip(".").lower() or "png"
+    with replacing(path) as temporary:
+        metadata = {"Date": None} if kind == "svg" else None
+        figure.savefig(temporary, dpi=160, format=kind, metadata=metadata)
 
 
 def _subplots(n_rows: int, n_columns: int, size: tuple[float, float]) -> tuple["Figure", Any]:

@@ -6,9 +6,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..brdf import Brdf, TabularBrdf
-from ..files import replacing
 from ..halfdiff import HalfDiff, from_half_diff
-from ..locations import Location
 from ..look import portrait, to_png
 from ..measurements import Angles
 from ..recovery import Completion, Plan, Recovery
@@ -56,12 +54,6 @@ def planned(plan: Plan) -> "Figure":
         right.set(ylim=(0, None), xlabel="pairs measured", ylabel="natural logarithms")
         right.set_title("What is still unknown, root mean square")
         return figure
-
-
-def save(path: Location, figure: "Figure") -> None:
-    """Write a figure as its suffix says: .png, .svg, .pdf, .webp."""
-    with replacing(path) as temporary:
-        figure.savefig(temporary, dpi=160, format=path.suffix.lstrip(".").lower() or "png")
 
 
 def _spheres(ax: "Axes", completion: Completion, mix: TabularBrdf) -> None:

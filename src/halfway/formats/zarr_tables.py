@@ -120,17 +120,17 @@ def write_zarr(path: str | Path, table: TabularBrdf) -> None:
     if path.exists() and not is_zarr(path):
         raise OutputError(f"{path} exists and is no Zarr store: it is not replaced.")
     with scratch_folder(path) as folder:
-        names = [table.name or path.stem]
-        (folder / DOCUMENT).write_text(
-            metadata(1, table.grid, 1.0, names=names, samples="float32"), encoding="utf-8"
-        )
+        store = folder / "new"
+        store.mkdir()
+        text = metadata(1, table.grid, 1.0, names=[table.name or path.stem], samples="float32")
+        (store / DOCUMENT).write_text(text, encoding="utf-8")
         chunk = gzip.compress(table.values.astype("<f4").data, compresslevel=1, mtime=0)
-        (folder / chunk_name(0, table.grid)).write_bytes(chunk)
+        (store / chunk_name(0, table.grid)).write_bytes(chunk)
         if path.exists():
-            for old in path.iterdir():
-                old.unlink()
-            path.rmdir()
-        folder.rename(path)
+            path.rename(
+                folder / "old"
+            )  # which goes with the scratch folder, once the new one is in place
+        store.rename(path)
 
 
 def chunk_name(i: int, grid: Grid) -> str:

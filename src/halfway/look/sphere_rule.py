@@ -77,6 +77,7 @@ def points(size: int, n_points: int) -> tuple[Frame, Indices]:
 
 
 def frame(theta: Angles, phi: Angles) -> Frame:
+    """The frames of points of the sphere, theta from the middle of the picture and phi about it."""
     sin, cos, zero = np.sin(theta), np.cos(theta), np.zeros_like(theta)
     across, up = np.cos(phi), np.sin(phi)
     return Frame(
@@ -151,4 +152,5 @@ def sky_queries(nodes: SkyNodes) -> Queries:
 
 
 def viewer(theta_o: Angles) -> Directions:
+    """The directions to a viewer at these angles from the normal, azimuth 0."""
     return np.stack([np.sin(theta_o), np.zeros_like(theta_o), np.cos(theta_o)], axis=-1)
