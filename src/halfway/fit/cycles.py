@@ -14,7 +14,6 @@ Source: Blender 5.3, Cycles, ``closure_principled``, ``bsdf_microfacet``; F82: N
 facets: E. Heitz, JCGT 7(4), 2018.
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any, ClassVar
@@ -23,8 +22,8 @@ import numpy as np
 
 from .._types import Angle
 from ..brdf import fresnel
-from .microfacet import Azimuths, f0_of_ior, ggx, smith_correlated
-from .model import ROUGHNESSES, AnalyticModel, Colour, Range, channels
+from .microfacet import Pair, f0_of_ior, ggx, smith_correlated
+from .model import AnalyticModel, Range, channels
 from .openpbr import f82
 
 COAT_IOR = 1.5
@@ -46,6 +45,12 @@ class Cycles(AnalyticModel):
 
     formula: ClassVar[str] = "Blender's Principled BSDF"
     colours: ClassVar[frozenset[str]] = frozenset({"base_color", "specular_tint"})
+    main_lobe: ClassVar = "roughness", "metallic"
+    opening: ClassVar = {
+        "specular_tint": 0.95,
+        "coat_weight": 0.1,
+        "coat_roughness": 0.1,
+    }
     ranges: ClassVar = {
         "base_color": Range(0, 1, 0.5),
         "metallic": Range(0, 1, 0),
@@ -56,45 +61,27 @@ class Cycles(AnalyticModel):
         "coat_roughness": Range(0.02, 1, 0.1),
     }
 
-    @classmethod
-    def starts(cls, body: Colour, glossy: Colour) -> Sequence["Cycles"]:
-        coat = {"coat_weight": 0.1, "coat_roughness": 0.1}
-        return [
-            cls(colour, metallic=m, roughness=r, specular_tint=0.95, **coat)
-            for r in ROUGHNESSES
-            for m, colour in ((0.1, body), (0.9, glossy))
-        ]
-
-    def at(
-        self,
-        theta_h: Angle,
-        theta_d: Angle,
-        phi_d: Angle,
-        cos_i: Angle,
-        cos_o: Angle,
-        azimuths: Azimuths | None = None,
-    ) -> np.ndarray:
-        del phi_d, azimuths  # the first acts through the two cosines
-        cos_d = np.cos(theta_d)
-        lobe = _lobe(theta_h, cos_i, cos_o, self.roughness)
+    def of(self, pair: Pair) -> np.ndarray:
+        lobe = _lobe(pair, self.roughness)
         colour, tint = channels(self.base_color, lobe), channels(self.specular_tint, lobe)
         f0 = tint * f0_of_ior(self.ior)
-        gloss = f0 + (1 - f0) * _share(cos_d, self.ior)
-        seen = (f0 + (1 - f0) * _mean_share(cos_o, self.roughness, self.ior)).max(axis=0)
+        gloss = f0 + (1 - f0) * _share(pair.cos_d, self.ior)
+        seen = (f0 + (1 - f0) * _mean_share(pair.cos_o, self.roughness, self.ior)).max(axis=0)
         dielectric = gloss * lobe + (1 - seen) * colour / np.pi
-        f = dielectric + self.metallic * (f82(colour, tint, cos_d) * lobe - dielectric)
+        f = dielectric + self.metallic * (f82(colour, tint, pair.cos_d) * lobe - dielectric)
         if not self.coat_weight:
             return f
         f0 = f0_of_ior(COAT_IOR)
-        coat = f0 + (1 - f0) * _share(cos_d, COAT_IOR)
-        seen = f0 + (1 - f0) * _mean_share(cos_o, self.coat_roughness, COAT_IOR)
-        coat = coat * _lobe(theta_h, cos_i, cos_o, self.coat_roughness)
+        coat = f0 + (1 - f0) * _share(pair.cos_d, COAT_IOR)
+        seen = f0 + (1 - f0) * _mean_share(pair.cos_o, self.coat_roughness, COAT_IOR)
+        coat = coat * _lobe(pair, self.coat_roughness)
         return self.coat_weight * coat + (1 - self.coat_weight * seen) * f
 
 
-def _lobe(theta_h: Angle, cos_i: Angle, cos_o: Angle, roughness: float) -> Angle:
+def _lobe(pair: Pair, roughness: float) -> Angle:
     a = roughness**2
-    return ggx(theta_h, a) * smith_correlated(cos_i, cos_o, a, a) / (4 * cos_i * cos_o)
+    G = smith_correlated(pair.cos_i, pair.cos_o, a, a) / (4 * pair.cos_i * pair.cos_o)
+    return ggx(pair.theta_h, a) * G
 
 
 def _share(cos_d: Angle, ior: float) -> Angle:

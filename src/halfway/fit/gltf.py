@@ -18,15 +18,15 @@ Source: Khronos Group, glTF 2.0 specification, appendix B; KHR_materials_ior, KH
 KHR_materials_clearcoat, KHR_materials_anisotropy, the sections "Implementation".
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
 import numpy as np
 
 from .._types import Angle
-from .microfacet import Azimuths, Widths, f0_of_ior, ggx, schlick, smith, smith_correlated
-from .model import ANY_TURN, ROUGHNESSES, AnalyticModel, Colour, Range, channels
+from .microfacet import Pair, Widths, f0_of_ior, ggx, schlick, smith, smith_correlated
+from .model import ANY_TURN, AnalyticModel, Range, channels
 
 LEAST_WIDTH = 1e-6
 COAT_F0 = 0.04
@@ -49,6 +49,13 @@ class Gltf(AnalyticModel):
 
     formula: ClassVar[str] = "glTF 2.0 metallic-roughness"
     colours: ClassVar[frozenset[str]] = frozenset({"base_color", "specular_color"})
+    main_lobe: ClassVar = "roughness", "metallic"
+    opening: ClassVar = {
+        "specular": 0.95,
+        "specular_color": 0.95,
+        "clearcoat": 0.1,
+        "clearcoat_roughness": 0.1,
+    }
     ranges: ClassVar = {
         "base_color": Range(0, 1, 0.5),
         "metallic": Range(0, 1, 0),
@@ -69,15 +76,6 @@ class Gltf(AnalyticModel):
         {"specular": 1.0},
     )
 
-    @classmethod
-    def starts(cls, body: Colour, glossy: Colour) -> Sequence["Gltf"]:
-        coat = {"clearcoat": 0.1, "clearcoat_roughness": 0.1}
-        return [
-            cls(colour, roughness=r, metallic=m, specular=0.95, specular_color=0.95, **coat)
-            for r in ROUGHNESSES
-            for m, colour in ((0.1, body), (0.9, glossy))
-        ]
-
     @property
     def readings(self) -> Mapping[str, AnalyticModel]:
         return {
@@ -85,18 +83,9 @@ class Gltf(AnalyticModel):
             "in Blender": _InBlender.from_vector(self.to_vector()),
         }
 
-    def at(
-        self,
-        theta_h: Angle,
-        theta_d: Angle,
-        phi_d: Angle,
-        cos_i: Angle,
-        cos_o: Angle,
-        azimuths: Azimuths | None = None,
-    ) -> np.ndarray:
-        del phi_d  # it acts through the two cosines
-        white = schlick(np.cos(theta_d))
-        lobe = self._base(theta_h, cos_i, cos_o, azimuths)
+    def of(self, pair: Pair) -> np.ndarray:
+        white = schlick(pair.cos_d)
+        lobe = self._base(pair)
         colour = channels(self.base_color, lobe)
         f0 = np.minimum(1, channels(self.specular_color, lobe) * f0_of_ior(self.ior))
         F = self._fresnel(f0, white)
@@ -105,18 +94,18 @@ class Gltf(AnalyticModel):
         f = dielectric + self.metallic * (metal - dielectric)
         if not self.clearcoat:
             return f
-        coat = _lobe(theta_h, cos_i, cos_o, self.clearcoat_roughness)
-        share = self.clearcoat * (COAT_F0 + (1 - COAT_F0) * schlick(cos_o))
+        coat = _lobe(pair, self.clearcoat_roughness)
+        share = self.clearcoat * (COAT_F0 + (1 - COAT_F0) * schlick(pair.cos_o))
         return f + share * (coat - f)
 
-    def _base(self, theta_h: Angle, cos_i: Angle, cos_o: Angle, azimuths: Azimuths | None) -> Angle:
-        if azimuths is None:
-            return _lobe(theta_h, cos_i, cos_o, self.roughness)
+    def _base(self, pair: Pair) -> Angle:
+        if pair.azimuths is None:
+            return _lobe(pair, self.roughness)
         a_b = max(LEAST_WIDTH, self.roughness**2)
         a_t = a_b + (1 - a_b) * self.anisotropy_strength**2
-        a = Widths.along(a_t, a_b, self.anisotropy_rotation, azimuths)
-        G = smith_correlated(cos_i, cos_o, a.i, a.o) / (4 * cos_i * cos_o)
-        return a.density * ggx(theta_h, a.h) * G
+        a = Widths.along(a_t, a_b, self.anisotropy_rotation, pair.azimuths)
+        G = smith_correlated(pair.cos_i, pair.cos_o, a.i, a.o) / (4 * pair.cos_i * pair.cos_o)
+        return a.density * ggx(pair.theta_h, a.h) * G
 
     def _fresnel(self, f0: np.ndarray, white: Angle) -> np.ndarray:
         return self.specular * (f0 + (1 - f0) * white)
@@ -169,6 +158,7 @@ class PreviewSurface(_Part):
     grain: ClassVar = ()
 
 
-def _lobe(theta_h: Angle, cos_i: Angle, cos_o: Angle, roughness: float) -> Angle:
+def _lobe(pair: Pair, roughness: float) -> Angle:
     a = max(LEAST_WIDTH, roughness**2)
-    return ggx(theta_h, a) * smith(cos_i, a) * smith(cos_o, a) / (4 * cos_i * cos_o)
+    shadowed = smith(pair.cos_i, a) * smith(pair.cos_o, a) / (4 * pair.cos_i * pair.cos_o)
+    return ggx(pair.theta_h, a) * shadowed

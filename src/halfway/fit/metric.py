@@ -24,8 +24,8 @@ from jaxtyping import Bool, Float64
 from .._types import Directions
 from ..brdf import Brdf, quadrature
 from ..errors import FormatError
-from ..halfdiff import HalfDiff, to_half_diff
-from .microfacet import Azimuths
+from ..halfdiff import to_half_diff
+from .microfacet import Pair
 from .model import AnalyticModel, Colour, Vector
 
 VIEWS_DEGREES = (10.0, 30.0, 50.0, 65.0, 77.0)
@@ -47,8 +47,7 @@ class Pairs(NamedTuple):
 
     wi: Directions
     wo: Directions
-    angles: HalfDiff
-    azimuths: Azimuths
+    pair: Pair
     weight: Vector
     """The root of w_j, and sums of squares to 1."""
     reflected: Float64[np.ndarray, "n_views n"]
@@ -57,9 +56,7 @@ class Pairs(NamedTuple):
 
     def of(self, model: AnalyticModel) -> Samples:
         """Values of a model, in 1/sr."""
-        theta_h, _, theta_d, phi_d = self.angles
-        azimuths = None if model.is_isotropic else self.azimuths
-        return model.at(theta_h, theta_d, phi_d, self.wi[:, 2], self.wo[:, 2], azimuths)
+        return model.of(self.pair._replace(azimuths=None) if model.is_isotropic else self.pair)
 
 
 class Target(NamedTuple):
@@ -101,7 +98,7 @@ class Target(NamedTuple):
 
     def body(self) -> Colour:
         """The diffuse albedo, off the highlight."""
-        off = self.known & (self.pairs.angles.theta_h > np.radians(BODY_DEGREES))
+        off = self.known & (self.pairs.pair.theta_h > np.radians(BODY_DEGREES))
         return np.pi * np.median(self.samples[:, off], axis=1) if off.any() else np.full(3, 0.5)
 
     def albedo(self) -> Colour:
@@ -112,8 +109,9 @@ class Target(NamedTuple):
     def widest(self) -> float:
         """The direction along the surface in which the highlight is widest: that of the second moments of its half vectors."""
         light = self.samples.mean(axis=0) * self.pairs.wi[:, 2] * self.pairs.weight**2
+        theta_h, phi_h, *_ = to_half_diff(self.pairs.wi, self.pairs.wo)
         # Of a tensor along phi, the sum of exp(2 i phi) is at twice the angle of its longer axis.
-        moment = np.sin(self.pairs.angles.theta_h) ** 2 * np.exp(2j * self.pairs.azimuths.h)
+        moment = np.sin(theta_h) ** 2 * np.exp(2j * phi_h)
         return float(np.angle((light * moment).sum()) / 2)
 
 
@@ -133,12 +131,10 @@ def comparison_pairs(n_azimuths: int = 1) -> Pairs:
     weight = shares[view] * cos_d * dh / np.sqrt(np.hypot(h[:, 0], h[:, 1]))
     reflected = np.zeros((len(views), len(view)))
     reflected[view, np.arange(len(view))] = np.concatenate([rule.weights for rule in views])
-    angles = to_half_diff(wi, wo)
     return Pairs(
         wi,
         wo,
-        angles,
-        Azimuths.of(angles.phi_h, wi, wo),
+        Pair.of(wi, wo),
         np.sqrt(weight / weight.sum()),
         reflected,
         np.sqrt(shares / shares.sum()),

@@ -21,6 +21,7 @@ from typing import NamedTuple
 import numpy as np
 
 from .._types import Angle, Directions
+from ..halfdiff import to_half_diff
 
 
 class Azimuths(NamedTuple):
@@ -34,6 +35,29 @@ class Azimuths(NamedTuple):
     def of(cls, phi_h: Angle, wi: Directions, wo: Directions) -> "Azimuths":
         """Those of pairs of directions whose half vectors are at ``phi_h``."""
         return cls(phi_h, *(np.arctan2(w[..., 1], w[..., 0]) for w in (wi, wo)))
+
+
+class Pair(NamedTuple):
+    """What a lobe needs of a pair of directions; arrays that broadcast together."""
+
+    theta_h: Angle
+    cos_d: Angle
+    cos_i: Angle
+    cos_o: Angle
+    azimuths: Azimuths | None = None
+    """Only where something is anisotropic."""
+
+    @classmethod
+    def of(cls, wi: Directions, wo: Directions) -> "Pair":
+        """That of directions above the surface, with its azimuths."""
+        angles = to_half_diff(wi, wo)
+        azimuths = Azimuths.of(angles.phi_h, wi, wo)
+        return cls(angles.theta_h, np.cos(angles.theta_d), wi[..., 2], wo[..., 2], azimuths)
+
+    @property
+    def cos_between(self) -> Angle:
+        """Of the angle from one direction to the other."""
+        return 2 * self.cos_d**2 - 1
 
 
 class Widths(NamedTuple):

@@ -13,8 +13,8 @@ from jaxtyping import Float64
 
 from .._types import Angle, Directions, Part, Table, Values
 from ..brdf import Brdf, IsotropicModel
-from ..halfdiff import Grid, to_half_diff
-from .microfacet import Azimuths
+from ..halfdiff import Grid
+from .microfacet import Pair
 
 Vector = Float64[np.ndarray, " n"]
 Colour = Float64[np.ndarray, "3"]
@@ -45,6 +45,10 @@ class AnalyticModel(IsotropicModel):
     """Of each parameter, in the order of the fields; a colour's range is that of each channel."""
     colours: ClassVar[frozenset[str]]
     """The parameters of three channels."""
+    main_lobe: ClassVar[tuple[str, str]]
+    """The parameters that say how wide the main lobe is and how much of it a metal's."""
+    opening: ClassVar[Mapping[str, float]]
+    """The other parameters at a search's start that are not at their defaults: inside their ranges, where they do something."""
     grain: ClassVar[tuple[str, ...]] = ()
     """The parameters that say how anisotropic it is, 0 for not, and in which direction its main lobe is widest; none where it never is."""
     n_searches: ClassVar[int] = 2
@@ -53,9 +57,14 @@ class AnalyticModel(IsotropicModel):
     """Parameters that may be held, by their values, for the sake of other programs."""
 
     @classmethod
-    @abstractmethod
     def starts(cls, body: Colour, glossy: Colour) -> Sequence["AnalyticModel"]:
-        """Where a search may begin, for a material of this diffuse and this whole albedo."""
+        """Where a search may begin, for a material of this diffuse and this whole albedo: as a dielectric and as a metal."""
+        width, metalness = cls.main_lobe
+        return [
+            cls(**{"base_color": colour, width: r, metalness: m}, **cls.opening)
+            for r in ROUGHNESSES
+            for m, colour in ((0.1, body), (0.9, glossy))
+        ]
 
     @property
     def readings(self) -> Mapping[str, "AnalyticModel"]:
@@ -67,27 +76,22 @@ class AnalyticModel(IsotropicModel):
         return not self.grain or getattr(self, self.grain[0]) == 0
 
     @abstractmethod
+    def of(self, pair: Pair) -> np.ndarray:
+        """f_r in 1/sr, shape (3, ...); a pair without azimuths is one of a model that is isotropic."""
+
     def at(
-        self,
-        theta_h: Angle,
-        theta_d: Angle,
-        phi_d: Angle,
-        cos_i: Angle,
-        cos_o: Angle,
-        azimuths: Azimuths | None = None,
+        self, theta_h: Angle, theta_d: Angle, phi_d: Angle, cos_i: Angle, cos_o: Angle
     ) -> np.ndarray:
-        """f_r in 1/sr, shape (3, ...), of arrays that broadcast together; azimuths only where it is anisotropic."""
+        del phi_d  # it acts through the two cosines
+        return self.of(Pair(theta_h, np.cos(theta_d), cos_i, cos_o))
 
     def eval(self, wi: Directions, wo: Directions) -> Values:
         if self.is_isotropic:
             return super().eval(wi, wo)
         wi, wo = np.broadcast_arrays(wi, wo)
         lit = (wi[..., 2] > 0) & (wo[..., 2] > 0)
-        wi, wo = wi[lit], wo[lit]
-        theta_h, phi_h, theta_d, phi_d = to_half_diff(wi, wo)
-        azimuths = Azimuths.of(phi_h, wi, wo)
         values = np.zeros((*lit.shape, 3))
-        values[lit] = self.at(theta_h, theta_d, phi_d, wi[:, 2], wo[:, 2], azimuths).T
+        values[lit] = self.of(Pair.of(wi[lit], wo[lit])).T
         return values
 
     def _sample_rows(self, grid: Grid, rows: Part) -> Table:

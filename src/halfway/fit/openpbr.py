@@ -25,31 +25,20 @@ E. Turquin, "Practical Multiple Scattering Compensation for Microfacet Models", 
 """
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, ClassVar, NamedTuple
+from typing import Any, ClassVar
 
 import numpy as np
 
 from .._types import Angle
 from ..brdf import fresnel
-from .microfacet import Azimuths, Widths, f0_of_ior, ggx, schlick, smith_correlated
-from .model import ANY_TURN, ROUGHNESSES, AnalyticModel, Colour, Range, channels
+from .microfacet import Pair, Widths, f0_of_ior, ggx, schlick, smith_correlated
+from .model import ANY_TURN, AnalyticModel, Range, channels
 
 COAT_IOR = 1.6
 LEAST_WIDTH = 1e-6
 LEAST_FUZZ = 0.01
 """Least width of a lobe and least roughness of the fuzz, in MaterialX."""
-
-
-class Pair(NamedTuple):
-    """What a lobe needs of a pair of directions."""
-
-    theta_h: Angle
-    cos_d: Angle
-    cos_i: Angle
-    cos_o: Angle
-    azimuths: Azimuths | None
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,6 +61,15 @@ class OpenPbr(AnalyticModel):
 
     formula: ClassVar[str] = "OpenPBR 1.1"
     colours: ClassVar[frozenset[str]] = frozenset({"base_color", "specular_color", "fuzz_color"})
+    main_lobe: ClassVar = "specular_roughness", "base_metalness"
+    opening: ClassVar = {
+        "base_diffuse_roughness": 0.05,
+        "specular_color": 0.95,
+        "coat_weight": 0.1,
+        "coat_roughness": 0.1,
+        "fuzz_weight": 0.1,
+        "fuzz_color": 0.95,
+    }
     ranges: ClassVar = {
         "base_color": Range(0, 1, 0.5),
         "base_diffuse_roughness": Range(0, 1, 0),
@@ -89,41 +87,13 @@ class OpenPbr(AnalyticModel):
     }
     grain: ClassVar = "specular_roughness_anisotropy", "tangent_rotation"
 
-    @classmethod
-    def starts(cls, body: Colour, glossy: Colour) -> Sequence["OpenPbr"]:
-        few = {"coat_weight": 0.1, "coat_roughness": 0.1, "fuzz_weight": 0.1}
-        return [
-            cls(
-                colour,
-                base_diffuse_roughness=0.05,
-                base_metalness=m,
-                specular_color=0.95,
-                specular_roughness=r,
-                fuzz_color=0.95,
-                **few,
-            )
-            for r in ROUGHNESSES
-            for m, colour in ((0.1, body), (0.9, glossy))
-        ]
-
-    def at(
-        self,
-        theta_h: Angle,
-        theta_d: Angle,
-        phi_d: Angle,
-        cos_i: Angle,
-        cos_o: Angle,
-        azimuths: Azimuths | None = None,
-    ) -> np.ndarray:
-        del phi_d  # it acts through the two cosines
-        pair = Pair(theta_h, np.cos(theta_d), cos_i, cos_o, azimuths)
-        cos_between = np.cos(2 * theta_d)
-        f = self._base(pair, cos_between)
+    def of(self, pair: Pair) -> np.ndarray:
+        f = self._base(pair)
         if self.coat_weight:
             f = self._coated(f, pair)
-        return self._fuzzed(f, pair, cos_between) if self.fuzz_weight else f
+        return self._fuzzed(f, pair) if self.fuzz_weight else f
 
-    def _base(self, pair: Pair, cos_between: Angle) -> np.ndarray:
+    def _base(self, pair: Pair) -> np.ndarray:
         width, ior = self._under_the_coat()
         across = 1 - self.specular_roughness_anisotropy
         a_t = width * math.sqrt(2 / (1 + across**2))
@@ -132,7 +102,7 @@ class OpenPbr(AnalyticModel):
         like = pair.cos_i * pair.cos_o
         colour, tint = channels(self.base_color, like), channels(self.specular_color, like)
         gloss, kept = _gloss(pair, a, ior)
-        diffuse = eon(colour, self.base_diffuse_roughness, pair.cos_i, pair.cos_o, cos_between)
+        diffuse = eon(colour, self.base_diffuse_roughness, pair.cos_i, pair.cos_o, pair.cos_between)
         metal = _lobe(pair, a, f82(colour, tint, pair.cos_d))
         m = self.base_metalness
         return m * metal + (1 - m) * (tint * gloss + kept * diffuse)
@@ -153,10 +123,10 @@ class OpenPbr(AnalyticModel):
         w = self.coat_weight
         return w * gloss + (1 - w * (1 - kept)) * (1 + w * (darker - 1)) * f
 
-    def _fuzzed(self, f: np.ndarray, pair: Pair, cos_between: Angle) -> np.ndarray:
+    def _fuzzed(self, f: np.ndarray, pair: Pair) -> np.ndarray:
         r = max(LEAST_FUZZ, self.fuzz_roughness)
         albedo = fuzz_albedo(pair.cos_o, r)
-        lobe = albedo * fuzz(r, pair.cos_i, pair.cos_o, cos_between)
+        lobe = albedo * fuzz(r, pair.cos_i, pair.cos_o, pair.cos_between)
         w = self.fuzz_weight
         return w * channels(self.fuzz_color, lobe) * lobe + (1 - w * albedo) * f
 

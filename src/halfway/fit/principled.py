@@ -17,7 +17,6 @@ with Integrated Subsurface Scattering", 2015; what Mitsuba makes of them: the pa
 """
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
@@ -25,8 +24,8 @@ import numpy as np
 
 from .._types import Angle
 from ..brdf import fresnel
-from .microfacet import Azimuths, Widths, ggx, gtr1, schlick, smith
-from .model import ANY_TURN, ROUGHNESSES, AnalyticModel, Colour, Range, channels
+from .microfacet import Pair, Widths, ggx, gtr1, schlick, smith
+from .model import ANY_TURN, AnalyticModel, Range, channels
 
 _LUMINANCE = np.array([0.212671, 0.715160, 0.072169])
 LEAST_WIDTH = 0.001
@@ -52,6 +51,15 @@ class Principled(AnalyticModel):
 
     formula: ClassVar[str] = "Mitsuba principled"
     colours: ClassVar[frozenset[str]] = frozenset({"base_color"})
+    main_lobe: ClassVar = "roughness", "metallic"
+    opening: ClassVar = {
+        "spec_tint": 0.1,
+        "clearcoat": 0.1,
+        "clearcoat_gloss": 0.5,
+        "sheen": 0.05,
+        "sheen_tint": 0.1,
+        "flatness": 0.2,
+    }
     ranges: ClassVar = {
         "base_color": Range(0, 1, 0.5),
         "roughness": Range(0.02, 1, 0.5),
@@ -68,36 +76,18 @@ class Principled(AnalyticModel):
     }
     grain: ClassVar = "anisotropic", "tangent_rotation"
 
-    @classmethod
-    def starts(cls, body: Colour, glossy: Colour) -> Sequence["Principled"]:
-        few = {"clearcoat": 0.1, "clearcoat_gloss": 0.5, "sheen": 0.05, "flatness": 0.2}
-        return [
-            cls(colour, roughness=r, metallic=m, spec_tint=0.1, sheen_tint=0.1, **few)
-            for r in ROUGHNESSES
-            for m, colour in ((0.1, body), (0.9, glossy))
-        ]
-
-    def at(
-        self,
-        theta_h: Angle,
-        theta_d: Angle,
-        phi_d: Angle,
-        cos_i: Angle,
-        cos_o: Angle,
-        azimuths: Azimuths | None = None,
-    ) -> np.ndarray:
-        del phi_d  # it acts through the two cosines
-        cos_d = np.cos(theta_d)
+    def of(self, pair: Pair) -> np.ndarray:
+        cos_d, cos_i, cos_o = pair.cos_d, pair.cos_i, pair.cos_o
         white = schlick(cos_d)
         body = self._diffuse(cos_d, cos_i, cos_o) / np.pi
         colour = channels(self.base_color, body)
         tint = channels(self._tint(), body)
         aspect = math.sqrt(1 - 0.9 * self.anisotropic)
         a_t, a_b = (max(LEAST_WIDTH, self.roughness**2 * q) for q in (1 / aspect, aspect))
-        a = Widths.along(a_t, a_b, self.tangent_rotation, azimuths)
-        lobe = ggx(theta_h, a.h) * smith(cos_i, a.i) * smith(cos_o, a.o) / (4 * cos_i * cos_o)
+        a = Widths.along(a_t, a_b, self.tangent_rotation, pair.azimuths)
+        lobe = ggx(pair.theta_h, a.h) * smith(cos_i, a.i) * smith(cos_o, a.o) / (4 * cos_i * cos_o)
         lobe = a.density * lobe
-        coat = gtr1(theta_h, 0.1 - 0.099 * self.clearcoat_gloss) * smith(cos_i, 0.25)
+        coat = gtr1(pair.theta_h, 0.1 - 0.099 * self.clearcoat_gloss) * smith(cos_i, 0.25)
         coat = self.clearcoat / 4 * (0.04 + 0.96 * white) * coat * smith(cos_o, 0.25)
         sheen = self.sheen * (1 + self.sheen_tint * (tint - 1)) * white
         # Without an index Mitsuba leaves the whole lobe out, the metal's too; fits stay clear of that.
