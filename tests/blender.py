@@ -20,6 +20,8 @@ sys.path[:0] = [str(ROOT / "tests"), str(ROOT / "blender")]
 
 import glossy  # noqa: E402
 from build import build  # noqa: E402
+from chromium import chromium  # noqa: E402
+from in_three import draw  # noqa: E402
 from written_files import keras, nbrdf_layers  # noqa: E402
 
 from halfway import open_library  # noqa: E402
@@ -43,6 +45,7 @@ KINDS = {
 }
 """Materials of each kind, the first of them for the check."""
 OPENPBR, MITSUBA = "openpbr by its formula", "mitsuba by its formula"
+THREE = ".glb in three.js"
 LEAST_DB = {"table": 50, "lobes": 40, "principled": 26}
 """Of every kind: three decibels below the worst that was measured."""
 TREES = {"table": "table", "lobes": "lobes", "principled": "Principled"}
@@ -50,6 +53,7 @@ FITS = {
     "principled": "Cycles, Principled",
     ".glb": "Blender, `.glb`",
     ".usda": "Blender, `.usda`",
+    THREE: "three.js, `.glb`",
     MITSUBA: "Mitsuba, `principled`",
     OPENPBR: "MaterialX, OpenPBR",
 }
@@ -68,8 +72,9 @@ def main(arguments: Sequence[str]) -> None:
             for where in arguments[1:] or [LIBRARY]:
                 library = open_library(where)
                 means = measured(work, library, KINDS)
-                for kind, errors in by_formula(library, KINDS).items():
-                    means[kind].update(errors)
+                for more in (by_formula(library, KINDS), in_three(work, library, KINDS)):
+                    for kind, errors in more.items():
+                        means[kind].update(errors)
                 print_table(where, means, TREES)
                 print_table(where, means, FITS)
             return
@@ -152,6 +157,23 @@ def by_formula(
             fits = [fit(library.brdf(name), model, name=name) for name in names]
             rows = [(f.picture.psnr, f.picture.relative_l1, f.albedo_error) for f in fits]
             means[kind][column] = dict(zip(("psnr", "l1", "furnace"), np.mean(rows, axis=0), strict=True))  # fmt: skip
+    return means
+
+
+def in_three(
+    folder: Path, library: Library, kinds: dict[str, tuple[str, ...]]
+) -> dict[str, dict[str, dict[str, float]]]:
+    """For each kind the mean errors of what three.js draws of a glTF fit: Chromium and the viewer's packages are needed."""
+    names = [name for names in kinds.values() for name in names]
+    files = [folder / f"{name}.three.glb" for name in names]
+    for name, path in zip(names, files, strict=True):
+        write_fit(path, fit(library.brdf(name), "gltf", name=name))
+    with chromium() as browser:
+        drawn = dict(zip(names, draw(browser, files), strict=True))
+    means: dict[str, dict[str, dict[str, float]]] = defaultdict(dict)
+    for kind, members in kinds.items():
+        rows = [drawn[name].errors(library.brdf(name)) for name in members]
+        means[kind][THREE] = dict(zip(("psnr", "l1", "furnace"), np.mean(rows, axis=0), strict=True))  # fmt: skip
     return means
 
 

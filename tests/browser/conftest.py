@@ -3,7 +3,6 @@
 A console error fails the test: three.js logs a shader that does not compile and carries on.
 """
 
-import shutil
 import threading
 from base64 import b64decode
 from collections.abc import Generator, Iterator
@@ -14,8 +13,9 @@ from typing import Any
 import numpy as np
 import pytest
 import uvicorn
+from chromium import chromium
 from patience import PATIENCE, wait_until
-from playwright.sync_api import Browser, ConsoleMessage, Error, Page, expect, sync_playwright
+from playwright.sync_api import Browser, ConsoleMessage, Page, expect
 
 from halfway.brdf import TabularBrdf
 from halfway.colour import from_srgb
@@ -27,17 +27,6 @@ from halfway.server import Page as Files
 from halfway.server import create_app
 from halfway.server.run import listen
 
-FLAGS = [
-    "--no-sandbox",
-    "--disable-gpu",
-    "--disable-quic",
-    "--no-first-run",
-    "--disable-background-networking",
-    "--disable-component-update",
-    "--disable-sync",
-    "--use-angle=swiftshader",
-    "--enable-unsafe-swiftshader",
-]
 # Matte, glossy and mirror-like materials among them; a coarser grid than MERL's makes a table 1 MB.
 MATERIALS = (
     "blue-fabric", "cherry-235", "chrome", "gold-paint", "green-plastic", "pearl-paint", "pink-felt", "red-metallic-paint",
@@ -77,19 +66,8 @@ def served(library: ProceduralLibrary, **options: Any) -> Generator[str]:
 
 @pytest.fixture(scope="session")
 def browser() -> Iterator[Browser]:
-    with sync_playwright() as playwright:
-        # A machine's own Chromium where there is one, else the one that Playwright installs.
-        executable = shutil.which("chromium")
-        try:
-            browser = playwright.chromium.launch(
-                executable_path=executable, args=FLAGS, timeout=1000 * PATIENCE
-            )
-        except Error as error:
-            pytest.skip(
-                f"needs a Chromium (`playwright install chromium`): {str(error).splitlines()[0]}"
-            )
+    with chromium() as browser:
         yield browser
-        browser.close()
 
 
 @contextmanager

@@ -17,9 +17,9 @@ from ..colour import to_srgb
 from ..errors import FormatError
 from .brdf import Brdf
 
-_SIDE = 96
+SIDE = 96
 # x to the right, y up, z to the viewer; and the weight.
-_LIGHTS = (
+LIGHTS = (
     ((0.5, 0.6, 0.7), 0.6),
     ((-0.8, 0.2, 0.35), 0.5),
     ((0.3, -0.9, -0.2), 0.5),
@@ -49,7 +49,7 @@ def lit_sphere(brdf: Brdf) -> Values:
     wo = _frames() @ np.array([0.0, 0.0, 1.0])
     total = np.zeros_like(wo)
     n_known = 0
-    for direction, weight in _LIGHTS:
+    for direction, weight in LIGHTS:
         wi = _frames() @ (np.array(direction) / np.linalg.norm(direction))
         values, cosine = brdf.eval(wi, wo), np.maximum(wi[:, 2:], 0)
         n_known += np.count_nonzero(np.isfinite(values) & (cosine > 0))
@@ -75,7 +75,7 @@ def quality(picture: Values, expected: Values) -> Quality:
 @cache
 def _frames() -> np.ndarray:
     """Rotations from the scene to the surface's frame at each pixel, shape (n, 3, 3)."""
-    across = 2 * (np.arange(_SIDE) + 0.5) / _SIDE - 1
+    across = 2 * (np.arange(SIDE) + 0.5) / SIDE - 1
     x, y = (v.ravel() for v in np.meshgrid(across, -across))
     inside = x**2 + y**2 < 0.98
     x, y = x[inside], y[inside]
