@@ -71,10 +71,14 @@ class Tree:
         node = self.add("VectorMath", {0: vector, "Scale": factor}, operation="SCALE")
         return node.outputs["Vector"]
 
-    def image(self, image: bpy.types.Image, u, v, extension: str) -> bpy.types.NodeSocket:
-        """What an image holds at a place, linear between the middles of its pixels."""
+    def image(
+        self, image: bpy.types.Image, u, v, extension: str, interpolation: str = "Linear"
+    ) -> bpy.types.NodeSocket:
+        """What an image holds at a place: of the pixel, or linear between the middles of pixels."""
         at = self.add("CombineXYZ", {0: u, 1: v}).outputs[0]
-        node = self.add("TexImage", {"Vector": at}, interpolation="Linear", extension=extension)
+        node = self.add(
+            "TexImage", {"Vector": at}, interpolation=interpolation, extension=extension
+        )
         node.image = image
         return node.outputs["Color"]
 
@@ -194,7 +198,7 @@ def _follow(socket: bpy.types.NodeSocket, of: bpy.types.ID, path: str) -> None:
 
 def _looked_up(tree: Tree, image, brdf: TabularBrdf, normal, viewer, direction):
     """The table at the half/difference angles of two directions: see `halfway.halfdiff`."""
-    n_h, n_d, _ = brdf.grid.shape
+    n_h, n_d, n_p = brdf.grid.shape
     half = tree.vector("NORMALIZE", tree.vector("ADD", viewer, direction))
     across = tree.vector("CROSS_PRODUCT", normal, half)
     cos_h = tree.vector("DOT_PRODUCT", normal, half)
@@ -209,20 +213,35 @@ def _looked_up(tree: Tree, image, brdf: TabularBrdf, normal, viewer, direction):
     at_h = tree.math(
         "MULTIPLY", tree.math("SQRT", tree.math("MULTIPLY", theta_h, quarter)), float(n_h)
     )
-    at_h = tree.math("SUBTRACT", at_h, 0.5)
-    at_h = tree.math("MINIMUM", tree.math("MAXIMUM", at_h, 0.0), n_h - 1.0)
     at_d = tree.math("MULTIPLY", theta_d, n_d * quarter)
-    at_d = tree.math("MINIMUM", tree.math("MAXIMUM", at_d, 0.5), n_d - 0.5)
-    u = tree.math("FRACT", tree.math("DIVIDE", phi_d, np.pi))
-    low = tree.math("MINIMUM", tree.math("FLOOR", at_h), n_h - 2.0)
-    share = tree.math("SUBTRACT", at_h, low)
-    found = []
-    for offset in (0.0, 1.0):
-        row = tree.math("MULTIPLY", tree.math("ADD", low, offset), float(n_d))
-        v = tree.math("DIVIDE", tree.math("ADD", row, at_d), float(n_h * n_d))
-        found.append(tree.image(image, u, v, "REPEAT"))
-    rest = tree.math("SUBTRACT", 1.0, share)
-    return tree.vector("ADD", tree.scaled(found[0], rest), tree.scaled(found[1], share))
+    at_p = tree.math("MULTIPLY", tree.math("FRACT", tree.math("DIVIDE", phi_d, np.pi)), float(n_p))
+    total = None
+    for h, share_h in _between(tree, at_h, n_h):
+        for d, share_d in _between(tree, at_d, n_d):
+            row = tree.math("ADD", tree.math("MULTIPLY", h, float(n_d)), d)
+            v = tree.math("DIVIDE", tree.math("ADD", row, 0.5), float(n_h * n_d))
+            share = tree.math("MULTIPLY", share_h, share_d)
+            for p, share_p in _between(tree, at_p, n_p, wraps=True):
+                u = tree.math("DIVIDE", tree.math("ADD", p, 0.5), float(n_p))
+                found = tree.image(image, u, v, "REPEAT", "Closest")
+                found = tree.scaled(found, tree.math("MULTIPLY", share, share_p))
+                total = found if total is None else tree.vector("ADD", total, found)
+    return total
+
+
+def _between(tree: Tree, at, n: int, *, wraps: bool = False) -> list[tuple]:
+    """The two of ``n`` cells whose middles a place lies between, counted in cells from the first one's edge, and the share of each.
+
+    Images are not left to interpolate: EEVEE would take the mean of many pixels, as of a texture seen from afar.
+    """
+    at = tree.math("SUBTRACT", at, 0.5)
+    if not wraps:
+        at = tree.math("MINIMUM", tree.math("MAXIMUM", at, 0.0), n - 1.0)
+    low = tree.math("FLOOR", at)
+    if not wraps:
+        low = tree.math("MINIMUM", low, n - 2.0)
+    share = tree.math("SUBTRACT", at, low)
+    return [(low, tree.math("SUBTRACT", 1.0, share)), (tree.math("ADD", low, 1.0), share)]
 
 
 def _filled(brdf: TabularBrdf) -> np.ndarray:

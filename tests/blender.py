@@ -1,4 +1,5 @@
-"""The extension in Blender itself: ``make blender-check``. With ``--table`` and libraries behind it, the table of its page instead.
+"""The extension in Blender itself: ``make blender-check``. With ``--table`` and libraries behind it, the tables of its page instead;
+with ``--eevee``, that of EEVEE, which needs a display and its graphics (``xvfb-run`` and Mesa do).
 
 Blender is ``bpy`` from PyPI, which takes Python 3.13 and no other; `in_blender` runs in an environment of its own with nothing else.
 Where Python 3.13 or the wheel cannot be had, that is said in a line, and nothing is checked.
@@ -68,6 +69,11 @@ def main(arguments: Sequence[str]) -> None:
     with tempfile.TemporaryDirectory() as folder:
         work = Path(folder)
         build(work / "addon.zip")
+        if arguments[:1] == ["--eevee"]:
+            for where in arguments[1:] or [LIBRARY]:
+                means = measured(work, open_library(where), one_of_each(), "eevee")
+                print_table(where, means, TREES)
+            return
         if arguments[:1] == ["--table"]:
             for where in arguments[1:] or [LIBRARY]:
                 library = open_library(where)
@@ -127,9 +133,9 @@ def one_of_each() -> dict[str, tuple[str, ...]]:
 
 
 def measured(
-    folder: Path, library: Library, kinds: dict[str, tuple[str, ...]]
+    folder: Path, library: Library, kinds: dict[str, tuple[str, ...]], how: str = "measure"
 ) -> dict[str, dict[str, dict[str, float]]]:
-    """For each kind and node tree the mean errors of what Cycles renders."""
+    """For each kind and node tree the mean errors of what Blender renders."""
     names = [name for names in kinds.values() for name in names]
     tables = {name: library.row(library.index(name)).reshape(3, *library.grid.shape) for name in names}  # fmt: skip
     for name in names:
@@ -137,7 +143,7 @@ def measured(
         write_fit(folder / f"{name}.glb", fit(brdf, "gltf-blender", name=name))
         write_usd(folder / name, [Fits(*(fit(brdf, model, name=name) for model in Fits._fields))])
     np.savez(folder / "tables.npz", grid=np.array(library.grid.shape), **tables)
-    in_blender("measure", folder)
+    in_blender(how, folder)
     found = json.loads((folder / "errors.json").read_text())
     means: dict[str, dict[str, dict[str, float]]] = defaultdict(dict)
     for kind, members in kinds.items():

@@ -1,4 +1,4 @@
-"""What runs inside Blender: see `blender`. ``python in_blender.py check|measure FOLDER``.
+"""What runs inside Blender: see `blender`. ``python in_blender.py check|measure|eevee FOLDER``.
 
 The scene is that of `halfway.brdf.quality`: a sphere seen from afar under five suns; a white world without them is the furnace.
 """
@@ -32,7 +32,7 @@ def main(what: str, folder: Path) -> None:
     bpy.ops.extensions.package_install_files(
         filepath=str(folder / "addon.zip"), repo="user_default", enable_on_install=True
     )
-    {"check": check, "measure": measure}[what](folder)
+    {"check": check, "measure": measure, "eevee": measure_in_eevee}[what](folder)
 
 
 def module(name: str):
@@ -234,6 +234,27 @@ def measure(folder: Path) -> None:
                 errors["furnace"] = float(off.max())
             found[name][tree] = errors
         say(name, {tree: {key: round(value, 4) for key, value in errors.items()} for tree, errors in found[name].items()})  # fmt: skip
+    (folder / "errors.json").write_text(json.dumps(found))
+
+
+def measure_in_eevee(folder: Path) -> None:
+    """The node trees on the lit sphere, in the renderer of Blender's windows."""
+    build_scene()
+    scene = bpy.context.scene
+    scene.render.engine, scene.eevee.taa_render_samples = "BLENDER_EEVEE", SAMPLES
+    scene.render.filter_size = 1.0
+    tables = np.load(folder / "tables.npz")
+    grid = module("halfway.halfdiff").Grid.merl(*tables["grid"].tolist())
+    found = {}
+    for name in tables.files[1:]:
+        brdf = module("halfway.brdf").TabularBrdf(tables[name], grid, name=name)
+        expected = reference(brdf)
+        pictures = {tree: lit(module("making").make(name, brdf, tree)) for tree in TREES}
+        found[name] = {
+            tree: {"psnr": psnr(picture, expected), "l1": relative(picture, expected)}
+            for tree, picture in pictures.items()
+        }
+        say(name, found[name])
     (folder / "errors.json").write_text(json.dumps(found))
 
 
