@@ -13,6 +13,7 @@ from conftest import (  # pyright: ignore[reportMissingImports]
     to_linear,
 )
 from numpy.testing import assert_allclose
+from playwright.sync_api import expect
 from roughconductor import anisotropic, plugin
 
 from halfway.brdf import TabularBrdf
@@ -107,7 +108,9 @@ def test_the_tangent_of_a_mesh_is_where_its_first_texture_coordinate_grows(
 ) -> None:
     upright = on_sheet(explorer, ALONG_Y, 0)
     turned = on_sheet(explorer, ALONG_X, 90)
+    expect(explorer.page.get_by_text("sheet.obj has no texture coordinates")).to_have_count(0)
     level = on_sheet(explorer, "", 90)
+    expect(explorer.page.get_by_text("sheet.obj has no texture coordinates")).to_be_visible()
     across = on_sheet(explorer, ALONG_X, 0)
     assert_allclose(turned, upright, atol=0.02)
     assert_allclose(level, upright, atol=0.02)
