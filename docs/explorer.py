@@ -56,7 +56,7 @@ SCREENS: dict[str, Screen] = {
     "explorer-narrow-light": ((800, 900), "light", "#space=anchored&stops=green-plastic,gold-paint&t=0.5&shape=teapot&light=forest"),
 }  # fmt: skip
 OF_BOTH_KINDS: dict[str, Screen] = {
-    "explorer-anisotropic": ((1440, 900), "dark", "#space=anchored&stops=brushed-steel,cherry-235&t=0.2&grain=37&plot=slice"),
+    "explorer-anisotropic": ((1440, 900), "dark", "#space=anchored&stops=brushed-steel,cherry-235&t=0.2&light=points&grain=37&plot=slice"),
 }  # fmt: skip
 
 
