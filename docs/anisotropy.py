@@ -1,7 +1,8 @@
 """The figures and pictures of the page on anisotropic materials.
 
 ``python docs/anisotropy.py grid`` draws the error of a table against its size, ``spheres`` pictures some of the materials, ``files``
-measures what a file of each format becomes, ``library LIB`` how the spaces of a library of them do.
+measures what a file of each format becomes, ``mitsuba`` what stock Mitsuba shows of a ``.bsdf`` file, ``library LIB`` how the spaces of
+a library of them do.
 """
 
 import sys
@@ -16,11 +17,13 @@ from halfway.brdf import lit_sphere, quality
 from halfway.cli.console import cache_folder
 from halfway.export import figures
 from halfway.formats import read_rgl, write_rgl
+from halfway.formats.rgl_writer import N_ANISOTROPIC, RESOLUTIONS
 from halfway.judge import Bench, evaluate, leave_one_out, sample_pairs, uniform
 from halfway.look import portrait, to_png
 from halfway.models import builtin
 from halfway.models.anisotropic import Lobe, Microfacets
 from halfway.models.brushed import refractive_index
+from halfway.render import Renderer
 from halfway.space import make_space
 from halfway.tasks import Work
 
@@ -140,6 +143,30 @@ def files() -> None:
         print(f"| {name} | {written.quality.psnr:.1f} | {size} | {others[0]:.1f} | {others[1]:.1f} |", flush=True)  # fmt: skip
 
 
+def mitsuba() -> None:
+    """Mitsuba's rough conductor: its table, written as files of several sizes, in its own reader, by pictures of a lit sphere."""
+    sys.path.append(str(Path(__file__).parents[1] / "tests"))
+    from roughconductor import anisotropic, plugin
+
+    renderer = Renderer("sphere", size=(256, 256), spp=64)
+    print("| slopes | directions, values | MB | dB |\n|---|---|---|---|")
+    for alphas in ((0.05, 0.3), (0.2, 0.4)):
+        table = anisotropic(*alphas)
+        for size in RESOLUTIONS[:N_ANISOTROPIC]:
+            with tempfile.TemporaryDirectory() as folder:
+                path = write_rgl(Path(folder, "x.bsdf"), table, resolution=size).path
+                worn = {"type": "measured", "filename": str(path)}
+                found, expected = (
+                    np.clip(renderer.picture(each), 0, 1) for each in (worn, plugin(*alphas))
+                )
+                psnr = -10 * np.log10(np.mean((found - expected) ** 2))
+                sizes = "{} x {}²".format(*size)
+                print(
+                    f"| {alphas} | {sizes} | {path.stat().st_size / 1e6:.0f} | {psnr:.1f} |",
+                    flush=True,
+                )
+
+
 def library(where: str) -> None:
     """Leaving one out, and the detours of routes, by space."""
     opened, work = open_library(where), Work(cache=cache_folder())
@@ -164,6 +191,7 @@ WORK: Mapping[str, Callable[..., None]] = {
     "grid": grid,
     "spheres": spheres,
     "files": files,
+    "mitsuba": mitsuba,
     "library": library,
 }
 

@@ -1,14 +1,15 @@
 """The pictures and the numbers of the page on the explorer, made by driving it in Chromium.
 
 ``python docs/explorer.py`` writes screenshots, and pictures of three materials on a sphere and a teapot in two lights, in the page
-beside the same in Mitsuba, and prints how far the two are apart. ``--only compare``, ``--only screens`` or ``--only speed`` (what the
-first load takes, a drag of t, and how long the picture takes to settle) does one of them. The rasteriser is Chromium's own in software;
+beside the same in Mitsuba, and prints how far the two are apart. ``--only compare``, ``--only screens``, ``--only anisotropic`` (the
+screenshot of a library of both kinds) or ``--only speed`` (what the first load takes, a drag of t, and how long the picture takes to settle) does one of them. The rasteriser is Chromium's own in software;
 ``--angle vulkan --size 1440x900`` takes a graphics card.
 """
 
 import argparse
 import shutil
 import statistics
+import tempfile
 import threading
 import time
 from collections.abc import Generator
@@ -16,6 +17,7 @@ from contextlib import contextmanager, suppress
 from dataclasses import replace
 from itertools import product
 from pathlib import Path
+from typing import TypeAlias
 
 import numpy as np
 import uvicorn
@@ -23,10 +25,10 @@ from PIL import Image
 from playwright.sync_api import Browser, Page, sync_playwright
 from playwright.sync_api import TimeoutError as TooLate
 
-from halfway import open_library
+from halfway import Grid, open_library
 from halfway.cli.console import cache_folder
 from halfway.colour import from_srgb
-from halfway.library import Library
+from halfway.library import Library, build_library
 from halfway.render import SCENES, Renderer, pictures
 from halfway.server import Page as Files
 from halfway.server import create_app
@@ -45,18 +47,23 @@ EXPOSURE = -1.0
 SPP = 4096
 # What the page settles for.
 SAMPLES = {"points": 128, "studio": 384}
-SCREENS = {
+Screen: TypeAlias = tuple[tuple[int, int], str, str]
+"""Size of the window, theme, and what the page shows."""
+SCREENS: dict[str, Screen] = {
     "explorer-dark": ((1440, 900), "dark", "#space=anchored&stops=gold-metallic-paint,blue-acrylic&t=0.2&shape=teapot&aside=numbers"),
     "explorer-light": ((1440, 900), "light", "#space=paper&stops=cherry-235,tungsten-carbide&t=0.5&light=city&compare=linear"),
     "explorer-narrow-dark": ((800, 900), "dark", "#space=anchored&stops=pink-felt,chrome,teflon&t=0.3&light=sunset&map=Grid"),
     "explorer-narrow-light": ((800, 900), "light", "#space=anchored&stops=green-plastic,gold-paint&t=0.5&shape=teapot&light=forest"),
+}  # fmt: skip
+OF_BOTH_KINDS: dict[str, Screen] = {
+    "explorer-anisotropic": ((1440, 900), "dark", "#space=anchored&stops=brushed-steel,cherry-235&t=0.2&light=points&grain=37&plot=slice"),
 }  # fmt: skip
 
 
 def main() -> None:
     """Make what is asked for."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--only", choices=["compare", "screens", "speed"])
+    parser.add_argument("--only", choices=["compare", "screens", "anisotropic", "speed"])
     parser.add_argument(
         "--angle", default="swiftshader", help="what WebGL runs on, as Chromium names it"
     )
@@ -72,8 +79,12 @@ def main() -> None:
         if only in (None, "compare"):
             compare(browser, address, library)
         if only in (None, "screens"):
-            for name in SCREENS:
-                take(browser, address, name)
+            for name, screen in SCREENS.items():
+                take(browser, address, name, screen)
+        if only in (None, "anisotropic"):
+            with tempfile.TemporaryDirectory() as folder, served(of_both_kinds(folder)) as other:
+                for name, screen in OF_BOTH_KINDS.items():
+                    take(browser, other, name, screen)
         if only in (None, "speed"):
             speed(browser, address, *map(int, given.size.split("x")))
         browser.close()
@@ -90,6 +101,13 @@ def served(library: Library) -> Generator[str]:
         yield f"http://127.0.0.1:{listener.getsockname()[1]}/"
         server.should_exit = True
         thread.join(20)
+
+
+def of_both_kinds(folder: str) -> Library:
+    """What `halfway library build builtin:anisotropic builtin:merl-abc --grid 32x24x12x12` builds."""
+    sources = ["builtin:anisotropic", "builtin:merl-abc"]
+    grid = Grid.anisotropic(32, 24, 12, 12)
+    return build_library(sources, Path(folder) / "both.brdflib", grid=grid).library
 
 
 def compare(browser: Browser, address: str, library: Library) -> None:
@@ -214,14 +232,14 @@ def square(picture: np.ndarray, covered: np.ndarray) -> np.ndarray:
     return np.asarray(cut, np.float32)
 
 
-def take(browser: Browser, address: str, name: str) -> None:
+def take(browser: Browser, address: str, name: str, screen: Screen) -> None:
     """A screenshot of the page, when its picture is finished."""
-    (width, height), scheme, fragment = SCREENS[name]
+    (width, height), scheme, fragment = screen
     page = browser.new_page(viewport={"width": width, "height": height}, color_scheme=scheme)  # pyright: ignore[reportArgumentType]
     page.goto(address + fragment)
     with suppress(TooLate):
         # On a slow machine a picture that still gets better will do.
-        page.wait_for_selector(".material[data-settled=true]", timeout=120_000)
+        page.wait_for_selector(".material[data-settled=true]", timeout=300_000)
     page.screenshot(path=IMAGES / f"{name}.png", full_page=True)
     page.close()
     Image.open(IMAGES / f"{name}.png").convert("RGB").save(IMAGES / f"{name}.webp", quality=86)

@@ -7,6 +7,8 @@ from roughconductor import anisotropic, dr, f_r, mi, plugin, table
 
 from halfway.brdf import TabularBrdf, directional_albedo
 from halfway.errors import RenderError
+from halfway.formats import write_rgl
+from halfway.formats.rgl_writer import RESOLUTIONS
 from halfway.halfdiff import Grid
 from halfway.render import Renderer, studio
 from halfway.render.bsdf import TableBsdf
@@ -145,6 +147,15 @@ def test_a_lit_sphere_is_that_of_the_model(alphas):
     assert psnr(renderer.picture(anisotropic(*alphas)), expected) > 40
     across = renderer.picture(plugin(*alphas[::-1]))
     assert psnr(across, expected) < 30
+
+
+@pytest.mark.parametrize("alphas", ROUGHNESSES, ids=str)
+def test_a_lit_sphere_of_a_bsdf_file_in_stock_mitsuba_is_that_of_the_model(alphas, tmp_path):
+    """The smallest file that is tried."""
+    path = write_rgl(tmp_path / "x.bsdf", anisotropic(*alphas), resolution=RESOLUTIONS[0]).path
+    renderer = Renderer("sphere", size=(96, 96), spp=16)
+    shown = renderer.picture({"type": "measured", "filename": str(path)})
+    assert psnr(shown, renderer.picture(plugin(*alphas))) > 40
 
 
 @pytest.mark.parametrize("turn", [0.0, 37.0])

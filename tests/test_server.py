@@ -18,15 +18,15 @@ from numpy.testing import assert_allclose, assert_array_equal
 from patience import PATIENCE, wait_until
 
 from halfway.brdf import TabularBrdf
-from halfway.errors import LibraryError
 from halfway.formats import write_merl
 from halfway.formats.rgl_writer import Resolution
 from halfway.halfdiff import Grid
 from halfway.library import ProceduralLibrary
 from halfway.look.small_tables import SmallTables
 from halfway.recipes import Blend, Recipe, mix
-from halfway.server import Page, create_app, taking
+from halfway.server import Explorer, Page, create_app, taking
 from halfway.server.blocks import Block
+from halfway.server.drawable import drawn_grid
 from halfway.server.guard import MAX_BODY
 from halfway.server.page import Asset
 from halfway.space import PACES, SPACES, Route, make_space
@@ -55,16 +55,48 @@ def halfs(body: bytes, shape: str) -> np.ndarray:
     return np.frombuffer(body, "<f2").reshape([int(n) for n in shape.split(",")])
 
 
-def test_a_library_that_depends_on_phi_h_is_refused_in_one_line() -> None:
-    grid = Grid.anisotropic(4, 4, 3, 4)
-    table = TabularBrdf(np.ones((3, *grid.shape), np.float32), grid, name="a")
-    brushes = ProceduralLibrary("brushes", {"a": table}, grid=grid)
-    with pytest.raises(LibraryError) as raised:
-        create_app(brushes, page=PAGE)
-    said = str(raised.value)
-    assert said.startswith("brushes depends on phi_h (it is anisotropic): the explorer draws")
-    assert "--grid 90x30x36 -o means.brdflib" in said
-    assert "\n" not in said
+def test_tables_that_depend_on_phi_h_are_sent_whole_and_taken_home_as_what_holds_them() -> None:
+    grid = Grid.anisotropic(4, 6, 3, 4, period=np.pi)
+    values = np.random.default_rng(0).random((3, *grid.shape)).astype(np.float16).astype(np.float32)
+    brushes = ProceduralLibrary("brushes", {"a": TabularBrdf(values, grid)}, grid=grid)
+    explorer = Explorer(brushes)
+    summary = explorer.summary()
+    assert [(axis.angle, axis.size) for axis in summary.grid] == [
+        ("theta_h", 4), ("phi_h", 6), ("theta_d", 3), ("phi_d", 4)
+    ]  # fmt: skip
+    assert summary.notice == ""
+    assert "merl" not in summary.exports
+    assert "bsdf" in summary.exports
+    sent = halfs(explorer.table("a").body, "4,6,3,4,4")
+    assert_array_equal(sent[..., :3], np.moveaxis(values, 0, -1))
+
+
+@pytest.mark.parametrize(
+    ("grid", "expected"),
+    [
+        (Grid.anisotropic(), Grid.anisotropic()),
+        (Grid.anisotropic(90, 360, 12, 40), Grid.anisotropic(64, 180, 12, 20)),
+        (Grid.anisotropic(400, 20, 40, 40, period=np.pi), Grid.anisotropic(64, 20, 24, 20, period=np.pi)),
+        (Grid.merl(), Grid.merl()),
+        (Grid.merl(180, 180, 360), Grid.merl()),
+    ],
+    ids=str,
+)  # fmt: skip
+def test_a_table_that_takes_more_than_64_mb_on_a_card_is_drawn_on_no_more_than_the_usual_cells(
+    grid: Grid, expected: Grid
+) -> None:
+    assert drawn_grid(grid) == expected
+    assert 8 * drawn_grid(grid).size <= 64e6
+
+
+def test_a_coarser_grid_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("halfway.server.drawable.MAX_BYTES", 1e5)
+    grid = Grid.merl(4, 3, 1200)
+    table = TabularBrdf(np.ones((3, *grid.shape), np.float32), grid)
+    explorer = Explorer(ProceduralLibrary("fine", {"a": table}, grid=grid))
+    assert explorer.table("a").shape == (4, 3, 180, 4)
+    assert explorer.summary().grid[2].size == 180
+    assert explorer.summary().notice.startswith("fine has tables of 4 x 3 x 1200 cells, 0 MB each")
 
 
 # What it says of the library

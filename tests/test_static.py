@@ -189,3 +189,15 @@ def test_what_cannot_be_exported_is_said(words: list[str], message: str) -> None
     result = CliRunner().invoke(app, ["view", *words])
     assert isinstance(result.exception, HalfwayError)
     assert message in str(result.exception)
+
+
+def test_tables_that_depend_on_phi_h_are_written_whole(tmp_path: Path) -> None:
+    grid = Grid.anisotropic(6, 4, 3, 4, period=np.pi)
+    brushed = ProceduralLibrary("brushed", random_tables(5, grid), grid=grid)
+    export(brushed, tmp_path / "site", PAGE)
+    folder = json.loads((tmp_path / "site/data/explorer.json").read_text())
+    assert [axis["size"] for axis in folder["library"]["grid"]] == [6, 4, 3, 4]
+    assert folder["tables"][0]["shape"] == [6, 4, 3, 4, 4]
+    assert folder["library"]["notice"] == ""
+    packed = (tmp_path / "site/data/tables/0.bin").read_bytes()
+    assert gzip.decompress(packed) == Block.of_table(brushed.brdf(brushed.names[0])).body

@@ -17,12 +17,12 @@ from chromium import chromium
 from patience import PATIENCE, wait_until
 from playwright.sync_api import Browser, ConsoleMessage, Page, expect
 
-from halfway.brdf import TabularBrdf
 from halfway.colour import from_srgb
 from halfway.halfdiff import Grid
 from halfway.library import ProceduralLibrary
 from halfway.models import builtin
 from halfway.render import Renderer, Scene
+from halfway.render.scenes import Material
 from halfway.server import Page as Files
 from halfway.server import create_app
 from halfway.server.run import listen
@@ -163,13 +163,15 @@ def to_linear(shown: np.ndarray) -> np.ndarray:
     return from_srgb(shown[..., :3] / 255)
 
 
-def in_mitsuba(scene: Scene, brdf: TabularBrdf, like: np.ndarray, *, spp: int) -> np.ndarray:
+def in_mitsuba(
+    scene: Scene, material: Material, like: np.ndarray, *, spp: int, turn_degrees: float = 0.0
+) -> np.ndarray:
     """Linear RGB of the same picture by Mitsuba, as large as ``like``."""
     height, width = like.shape[:2]
-    renderer = Renderer(scene, size=(width, height), spp=spp)
+    renderer = Renderer(scene, size=(width, height), spp=spp, turn_degrees=turn_degrees)
     if not renderer.exact:
         pytest.skip("needs Mitsuba with LLVM, which looks tables up as they are")
-    return renderer.picture(brdf)
+    return renderer.picture(material)
 
 
 SIDE = 4

@@ -19,6 +19,7 @@ from halfway.server.blocks import Block
 
 HERE = Path(__file__).parent
 GRID = Grid.merl(4, 3, 6)
+WITH_PHI_H = Grid.anisotropic(4, 5, 3, 6, period=np.pi)
 
 
 def golden() -> dict[str, Any]:
@@ -26,8 +27,10 @@ def golden() -> dict[str, Any]:
     return {
         "halfdiff": _half_diff(),
         "grid": _grid(),
-        "lookup": _lookup(),
-        "albedo": _albedo(),
+        "lookup": _lookup(GRID),
+        "lookup_with_phi_h": _lookup(WITH_PHI_H),
+        "albedo": _albedo(GRID),
+        "albedo_with_phi_h": _albedo(WITH_PHI_H),
         "route": _route(),
         "points": _points(),
         "colour": _colour(),
@@ -80,29 +83,29 @@ def _grid() -> list[dict[str, Any]]:
     return rows
 
 
-def _table() -> TabularBrdf:
+def _table(grid: Grid) -> TabularBrdf:
     """Half floats, so that nothing is rounded; some samples unmeasured that the mask has, others as the mask says."""
     values = (
         np.random.default_rng(2)
-        .gamma(0.5, size=(3, *GRID.shape))
+        .gamma(0.5, size=(3, *grid.shape))
         .astype(np.float16)
         .astype(np.float32)
     )
     values[0] *= 2.0**17
-    values[:, ~GRID.mask()] = np.nan
-    values[:, 1, 1, 2] = np.nan
-    return TabularBrdf(values, GRID, name="golden")
+    values[:, ~grid.mask()] = np.nan
+    values[:, 1, ..., 1, 2] = np.nan
+    return TabularBrdf(values, grid, name="golden")
 
 
-def _lookup() -> dict[str, Any]:
-    table = _table()
+def _lookup(grid: Grid) -> dict[str, Any]:
+    table = _table(grid)
     block = Block.of_table(table)
     rng = np.random.default_rng(3)
     wi, wo = _directions(rng, 60), _directions(rng, 60)
     wi[0, 2] *= -1
     values = np.nan_to_num(table.eval(wi, wo))
     return {
-        "grid": [vars(axis) for axis in GRID.axes],
+        "grid": [vars(axis) for axis in grid.axes],
         "scale": block.scale,
         "halfs": base64.b64encode(block.body).decode(),
         "wi": wi.tolist(),
@@ -111,12 +114,13 @@ def _lookup() -> dict[str, Any]:
     }
 
 
-def _albedo() -> dict[str, Any]:
-    """Of the table of ``lookup``; few nodes, which both sides place alike."""
+def _albedo(grid: Grid) -> dict[str, Any]:
+    """Of the table of ``lookup``, of light from an azimuth; few nodes, which both sides place alike."""
     nodes = {"n_theta_h": 40, "n_phi_h": 12}
     theta_i = np.radians([0.0, 30.0, 60.0, 88.0])
-    values = directional_albedo(_table(), theta_i, **nodes)
-    return {**nodes, "theta_i": theta_i.tolist(), "values": values.tolist()}
+    phi_i = 0.0 if grid.is_isotropic else 0.7
+    values = directional_albedo(_table(grid), theta_i, phi_i, **nodes)
+    return {**nodes, "theta_i": theta_i.tolist(), "phi_i": phi_i, "values": values.tolist()}
 
 
 def _library(n: int, seed: int) -> ProceduralLibrary:

@@ -2,7 +2,6 @@
 
 import type { Block } from "./api/client";
 import { LINEAR } from "./blend";
-import type { DrawableGrid } from "./brdf/grid";
 import type { Context } from "./context";
 import { type Ingredient, namesIn, only, toDocument } from "./recipe";
 import type { Reel } from "./reel";
@@ -52,7 +51,7 @@ export function frameAt(state: State, motion: Motion, i: number, n: number): Fra
 
 /** Draw all frames of a film onto a reel; `tell` hears how many are done, and `stopped` ends it. */
 export async function shoot(
-  { client, store, lights }: Context,
+  { client, store, lights, tables: { grid } }: Context,
   film: Film,
   reel: Reel,
   {
@@ -72,7 +71,7 @@ export async function shoot(
   const n = frameCount(film);
   const frames = Array.from({ length: n }, (_, i) => frameAt(state, film.motion, i, n));
   const names = namesIn(...frames.filter(({ blend }) => blend === LINEAR).map(({ recipe }) => recipe));
-  const tables = new Tables(client, state.library.grid as unknown as DrawableGrid);
+  const tables = new Tables(client, grid);
   const camera = new Photographer(tables, state.library.lights, film.size, names.length);
   const look = { other: [], split: 1, exposure: 2 ** state.exposure, tone: state.tone, environment };
   try {
@@ -102,7 +101,7 @@ export async function shoot(
     if (tables.get(name) === undefined) {
       const document = toDocument(state.library.name, recipe, blend);
       const { halfs, scale }: Block = await client.mixed(document, false, stopped);
-      tables.put({ name, grid: state.library.grid as unknown as DrawableGrid, halfs, scale });
+      tables.put({ name, grid, halfs, scale });
     }
     return name;
   }

@@ -3,7 +3,7 @@
 import type { Block } from "./api/client";
 import type { RecipeDocument } from "./api/schema";
 import { LINEAR } from "./blend";
-import type { DrawableGrid } from "./brdf/grid";
+import { toDrawable } from "./brdf/grid";
 import { followChoice } from "./choosing";
 import { comparedSpace } from "./compared";
 import type { Context } from "./context";
@@ -142,7 +142,6 @@ function fetchMixes(context: Context): void {
 
 function mixedTable(context: Context, key: MixedKey): Refined<RecipeDocument, Block> {
   const { client, store, actions, tables } = context;
-  const { grid, small_grid: smallGrid } = store.get().library;
   let number = 0;
   return new Refined({
     ask: client.mixed,
@@ -150,7 +149,8 @@ function mixedTable(context: Context, key: MixedKey): Refined<RecipeDocument, Bl
       // The full table is the same mix as the small one before it.
       if (small) number++;
       const name = mixedName(`${key} ${number}`, small);
-      tables.put({ name, grid: (small ? smallGrid : grid) as unknown as DrawableGrid, halfs, scale });
+      const grid = small ? toDrawable(store.get().library.small_grid) : tables.grid;
+      tables.put({ name, grid, halfs, scale });
       store.set({ [key]: only(name), arrived: store.get().arrived + 1 });
     },
     onBehind: (behind) => {

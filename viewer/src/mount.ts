@@ -4,10 +4,10 @@
 // option: it looks neither at the address nor at what the browser stores.
 
 import { Actions, LINK } from "./actions";
-import { type Block, type Client, Problem } from "./api/client";
+import type { Block, Client } from "./api/client";
 import { patient, type Waiting } from "./api/patient";
 import type { LibrarySummary } from "./api/schema";
-import { type DrawableGrid, isDrawable } from "./brdf/grid";
+import { toDrawable } from "./brdf/grid";
 import type { Context, Options } from "./context";
 import { el } from "./dom";
 import { follow } from "./follow";
@@ -74,7 +74,7 @@ function show(
     ...{ root, client, options, store, names, signal: gone.signal },
     actions: new Actions(store),
     thumbnails: new Thumbnails(names, library.name, client.thumbnailsOf),
-    tables: new Tables(client, drawable(library)),
+    tables: new Tables(client, toDrawable(library.grid)),
     lights: new Lights(environment),
   };
   applyTheme(context);
@@ -91,6 +91,7 @@ function show(
       status(context),
     ),
   );
+  context.actions.say("material", "library", library.notice || null);
   context.actions.say("route", LINK, unknownIn(options.fragment ?? "", library));
   takeShortlist(context);
   follow(context);
@@ -115,15 +116,6 @@ function takeShortlist({ options, store, actions }: Context): void {
   } catch (error) {
     actions.say("route", "shortlist", (error as Error).message);
   }
-}
-
-/** The grid of a library, if the page can draw it. */
-function drawable({ name, grid }: LibrarySummary): DrawableGrid {
-  if (isDrawable(grid)) return grid;
-  const angles = grid.map(({ angle }) => angle).join(", ");
-  throw new Problem(
-    `${name} has a grid over ${angles}: the explorer draws theta_h, theta_d, phi_d. Use \`halfway render\`.`,
-  );
 }
 
 function applyTheme({ root, store, options, signal }: Context): void {

@@ -1,6 +1,7 @@
 // Files of a person's own, dropped anywhere on the page or chosen: what each is for is said by its name's end.
 
 import { Problem } from "./api/client";
+import { isIsotropic } from "./brdf/grid";
 import type { Context } from "./context";
 import { toHash } from "./permalink";
 import { readLight } from "./render/environments";
@@ -105,7 +106,10 @@ async function openLight({ lights, store }: Context, file: File): Promise<void> 
   store.set({ light: "own", ownLight: file.name, turn: 0 });
 }
 
-async function openMesh({ store }: Context, file: File): Promise<void> {
+async function openMesh({ store, actions, tables }: Context, file: File): Promise<void> {
   const geometry = await readMesh(file);
+  const unsaid = !isIsotropic(tables.grid) && !geometry.hasAttribute("uv");
+  const level = `${file.name} has no texture coordinates, which say where a material's tangent points: it runs level, around the vertical.`;
+  actions.say("material", "tangent", unsaid ? level : null);
   store.set({ mesh: { name: file.name, geometry }, shape: "mesh", orbit: HOME });
 }

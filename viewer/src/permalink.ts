@@ -10,6 +10,7 @@ import { ASIDES, type Linked, PLOTS } from "./state";
 /** What stands as it is at first is left out. */
 const USUAL: Partial<Record<keyof Linked, string>> = {
   turn: "0",
+  grain: "0",
   tone: "none",
   split: "0.5",
   plot: "lobes",
@@ -31,6 +32,7 @@ export function toHash(linked: Linked): string {
     shape: linked.shape === "mesh" ? "" : linked.shape,
     light: linked.light === "own" ? "" : linked.light,
     turn: short(linked.turn, 0),
+    grain: short(linked.grain, 0),
     exposure: short(linked.exposure, 2),
     tone: linked.tone,
     split: short(linked.split, 3),
@@ -75,6 +77,7 @@ export function fromHash(hash: string, library: LibrarySummary): Partial<Linked>
     shape: oneOf("shape", ["sphere", "teapot"]),
     light: oneOf("light", LIGHTS),
     turn: number("turn", ...TURNS),
+    grain: number("grain", ...TURNS),
     tone: oneOf("tone", TONES),
     split: number("split", 0, 1),
     map: fields.get("map") || undefined,

@@ -43,7 +43,7 @@ export type Picture = (typeof PICTURES)[number];
 export const TONES = ["none", "agx", "filmic"] as const;
 export type Tone = (typeof TONES)[number];
 
-/** Degrees that the light can be turned about the vertical. */
+/** Degrees that the light can be turned about the vertical, and a material against the tangent. */
 export const TURNS = [-180, 180] as const;
 
 /** A point turned by degrees about the vertical, as the picture of an environment is. */
@@ -70,4 +70,6 @@ export interface View {
   readonly light: Light;
   /** Of the light about the vertical, in degrees. */
   readonly turn: number;
+  /** Of the material against the tangent of the surface, counter-clockwise seen from outside, in degrees. */
+  readonly grain: number;
 }

@@ -131,7 +131,7 @@ export type Whereabouts = Pick<State, "space" | "blend" | "pace" | "stops" | "po
 
 /** What a link carries. */
 // biome-ignore format: it is one list.
-export const LINKED = ["space", "blend", "pace", "stops", "t", "point", "compare", "shape", "light", "turn", "exposure", "tone", "orbit", "split", "map", "plot", "aside", "asked"] as const;
+export const LINKED = ["space", "blend", "pace", "stops", "t", "point", "compare", "shape", "light", "turn", "grain", "exposure", "tone", "orbit", "split", "map", "plot", "aside", "asked"] as const;
 export type Linked = Pick<State, (typeof LINKED)[number]>;
 
 /** Where a link does not say. */
@@ -140,6 +140,7 @@ const USUAL = {
   shape: "sphere",
   light: "studio",
   turn: 0,
+  grain: 0,
   tone: "none",
   split: 0.5,
   map: "",

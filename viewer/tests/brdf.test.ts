@@ -3,7 +3,7 @@ import { expect, test } from "vitest";
 
 import type { Axis } from "../src/api/schema";
 import { directionalAlbedo } from "../src/brdf/albedo";
-import { neighbours, toAngle, toPosition } from "../src/brdf/grid";
+import { isIsotropic, neighbours, toAngle, toDrawable, toPosition } from "../src/brdf/grid";
 import { HALF } from "../src/brdf/half";
 import { type Direction, toHalfDiff } from "../src/brdf/halfdiff";
 import { lobe } from "../src/brdf/lobe";
@@ -15,7 +15,7 @@ import { golden } from "./golden";
 const ROUNDING = 1e-9;
 
 interface Lookup {
-  grid: [Axis, Axis, Axis];
+  grid: Axis[];
   scale: [number, number, number];
   halfs: string;
   wi: Direction[];
@@ -23,10 +23,10 @@ interface Lookup {
   values: [number, number, number][];
 }
 
-function goldenTable(): Table {
-  const { grid, scale, halfs } = golden<Lookup>("lookup");
+function goldenTable(file = "lookup"): Table {
+  const { grid, scale, halfs } = golden<Lookup>(file);
   const bytes = Uint8Array.from(Buffer.from(halfs, "base64"));
-  return { name: "golden", grid, scale, halfs: new Uint16Array(bytes.buffer) };
+  return { name: "golden", grid: toDrawable(grid), scale, halfs: new Uint16Array(bytes.buffer) };
 }
 
 test("half and difference angles are Python's, near the pole too", () => {
@@ -59,19 +59,32 @@ test("outer half cells clamp, and a periodic axis wraps", () => {
   expect(neighbours(wrapped, 3.75)).toEqual([3, 0, 0.25]);
 });
 
-test("a look-up is Python's, unmeasured corners and scales included", () => {
-  const table = goldenTable();
-  const { wi, wo, values } = golden<Lookup>("lookup");
-  const largest = Math.max(...values.flat());
-  values.forEach((value, i) => {
-    evaluate(table, wi[i]!, wo[i]!).forEach((x, c) => {
-      expect(Math.abs(x - value[c]!)).toBeLessThan(ROUNDING * largest);
+test.each(["lookup", "lookup_with_phi_h"])(
+  "a %s is Python's, unmeasured corners and scales included",
+  (file) => {
+    const table = goldenTable(file);
+    const { wi, wo, values } = golden<Lookup>(file);
+    const largest = Math.max(...values.flat());
+    values.forEach((value, i) => {
+      evaluate(table, wi[i]!, wo[i]!).forEach((x, c) => {
+        expect(Math.abs(x - value[c]!)).toBeLessThan(ROUNDING * largest);
+      });
     });
-  });
-});
+  },
+);
 
 test("an unmeasured sample is null", () => {
-  expect(sample(goldenTable(), 1, 1, 2)).toBeNull();
+  expect(sample(goldenTable(), 1, 0, 1, 2)).toBeNull();
+  expect(sample(goldenTable("lookup_with_phi_h"), 1, 3, 1, 2)).toBeNull();
+});
+
+test("a table without phi_h has one cell of it; other angles are not known", () => {
+  const { grid } = golden<Lookup>("lookup_with_phi_h");
+  expect(isIsotropic(toDrawable(grid))).toBe(false);
+  expect(isIsotropic(goldenTable().grid)).toBe(true);
+  expect(() => toDrawable(grid.slice(0, 2))).toThrow(
+    "grid is over theta_h, phi_h: the explorer draws theta_h",
+  );
 });
 
 test("half floats have their values", () => {
@@ -105,26 +118,30 @@ test("inverting the running sum gives every cell its chance, in order", () => {
   });
 });
 
-test("the lobe is a density over half vectors", () => {
-  const { mass, density } = lobe(goldenTable());
-  const axis = goldenTable().grid[0];
+test.each(["lookup", "lookup_with_phi_h"])("the lobe of a %s is a density over half vectors", (file) => {
+  const { mass, ofThetaH, density } = lobe(goldenTable(file));
+  const [axis, { size }] = goldenTable(file).grid;
   const total = density.reduce((sum, value, i) => {
     const [from, to] = [toAngle(axis, i), toAngle(axis, i + 1)];
     return sum + value * 2 * Math.PI * (Math.cos(from) - Math.cos(to));
   }, 0);
   expect(total).toBeCloseTo(1, 9);
   expect(mass.reduce((a, b) => a + b, 0)).toBeCloseTo(1, 9);
+  ofThetaH.forEach((chance, i) => {
+    expect(mass.subarray(i * size, (i + 1) * size).reduce((a, b) => a + b, 0)).toBeCloseTo(chance, 9);
+  });
 });
 
-test("the directional albedo is Python's", () => {
-  const { n_theta_h, n_phi_h, theta_i, values } = golden<{
+test.each(["", "_with_phi_h"])("the directional albedo%s is Python's", (kind) => {
+  const { n_theta_h, n_phi_h, theta_i, phi_i, values } = golden<{
     n_theta_h: number;
     n_phi_h: number;
     theta_i: number[];
+    phi_i: number;
     values: [number, number, number][];
-  }>("albedo");
+  }>(`albedo${kind}`);
   theta_i.forEach((angle, i) => {
-    const albedo = directionalAlbedo(goldenTable(), angle, n_theta_h, n_phi_h);
+    const albedo = directionalAlbedo(goldenTable(`lookup${kind}`), angle, phi_i, n_theta_h, n_phi_h);
     albedo.forEach((x, c) => {
       expect(Math.abs(x / values[i]![c]! - 1)).toBeLessThan(1e-6);
     });
@@ -140,12 +157,12 @@ function lobeTable(b: number, c: number): Table {
     power,
     periodic: angle === "phi_d",
   });
-  const grid = [axis("theta_h", 90, 2), axis("theta_d", 90, 1), axis("phi_d", 1, 1)] as const;
+  const grid = toDrawable([axis("theta_h", 90, 2), axis("theta_d", 90, 1), axis("phi_d", 1, 1)]);
   const halfs = new Uint16Array(4 * 90 * 90).fill(DataUtils.toHalfFloat(1));
   for (let h = 0; h < 90; h++) {
     for (let d = 0; d < 90; d++) {
       const shape = (1 + 2 * b * Math.sin(toAngle(grid[0], h + 0.5) / 2) ** 2) ** -c;
-      const fresnel = 0.1 + 0.9 * (1 - Math.cos(toAngle(grid[1], d + 0.5))) ** 5;
+      const fresnel = 0.1 + 0.9 * (1 - Math.cos(toAngle(grid[2], d + 0.5))) ** 5;
       halfs.fill(
         DataUtils.toHalfFloat(0.001 + 900 * shape * fresnel),
         4 * (90 * h + d),
@@ -164,7 +181,7 @@ test.each([
   const table = lobeTable(b, c);
   for (const degrees of [0, 30, 60, 80, 88]) {
     const [plotted, python, converged] = ([NODES, [360, 60], [1440, 240]] as const).map(
-      ([nThetaH, nPhiH]) => directionalAlbedo(table, (degrees * Math.PI) / 180, nThetaH, nPhiH)[0],
+      ([nThetaH, nPhiH]) => directionalAlbedo(table, (degrees * Math.PI) / 180, 0, nThetaH, nPhiH)[0],
     );
     // Measured: .07 % at 88 degrees, below .001 % elsewhere.
     expect(Math.abs(plotted! / python! - 1)).toBeLessThan(0.001);

@@ -9,6 +9,7 @@ const LIBRARY = {
   name: "lab",
   address: "my files/lab.brdflib",
   blends: ["linear", "root"],
+  grid: [{ angle: "theta_h" }],
   materials: ["a", "b", "c"].map((name) => ({ name })),
 } as unknown as LibrarySummary;
 const ON_ROUTE = {
@@ -29,6 +30,7 @@ const ON_ROUTE = {
   mesh: null,
   light: "studio",
   exposure: 0,
+  grain: 0,
 } as const;
 
 test("a place on a route is made by route and render", () => {
@@ -44,6 +46,15 @@ test("a free point is made by mix, under the name of what it is mostly made of",
   expect(toCommand(free)).toBe(
     "halfway mix 'my files/lab.brdflib' --point=1,-2 --space paper --blend root --clamp -o a-75-b-25.binary" +
       " && halfway render a-75-b-25.binary --scene teapot -o a-75-b-25.png",
+  );
+});
+
+test("a material that is turned is rendered so, and a table that depends on phi_h is kept in a file that holds it", () => {
+  const library = { ...LIBRARY, grid: [{ angle: "phi_h" }] } as unknown as LibrarySummary;
+  const free = { ...ON_ROUTE, library, point: [1, -2], grain: -37 };
+  expect(toCommand(free)).toBe(
+    "halfway mix 'my files/lab.brdflib' --point=1,-2 --space paper --blend root --clamp -o a-to-b-0.250.zarr" +
+      " && halfway render a-to-b-0.250.zarr --scene spheres --env studio --turn -37 -o a-to-b-0.250.png",
   );
 });
 

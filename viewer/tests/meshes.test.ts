@@ -59,3 +59,37 @@ test("a file that is too large is not read", async () => {
   const file = { name: "huge.obj", size: 200e6 } as File;
   await expect(readMesh(file)).rejects.toThrow("huge.obj has 200 MB: expected at most 100.");
 });
+
+const SEAM = `ply
+format ascii 1.0
+element vertex 6
+property float x
+property float y
+property float z
+property float u
+property float v
+element face 2
+property list uchar int vertex_indices
+end_header
+0 0 0 0 0
+1 0 0 1 0
+1 1 0 1 1
+0 0 0 0 1
+1 1 0 0 0
+0 1 1 1 0
+3 0 1 2
+3 3 4 5
+`;
+
+test("texture coordinates stay with their corners, and a seam of them is no edge", async () => {
+  const geometry = await read("seam.ply", SEAM);
+  const [uv, normal] = [geometry.getAttribute("uv"), geometry.getAttribute("normal")];
+  const corners = Array.from({ length: 6 }, (_, i) => `${uv.getX(i)} ${uv.getY(i)}`);
+  expect(corners).toEqual(["0 0", "1 0", "1 1", "0 1", "0 0", "1 0"]);
+  // Both triangles have the first vertex.
+  for (const axis of [0, 1, 2]) expect(normal.array[axis]).toBeCloseTo(normal.array[9 + axis]!, 6);
+});
+
+test("a mesh without texture coordinates has none", async () => {
+  expect((await read("pyramid.obj", PYRAMID)).hasAttribute("uv")).toBe(false);
+});

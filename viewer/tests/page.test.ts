@@ -31,6 +31,7 @@ const LIBRARY: LibrarySummary = {
   paces: ["uniform"],
   lights: [],
   exports: ["merl"],
+  notice: "",
 };
 
 const { names, legs } = golden<{ names: string[]; legs: Record<string, LegView> }>("route");
@@ -62,6 +63,7 @@ test("a link comes back to the same view", () => {
     shape: "teapot",
     light: "points",
     turn: -30,
+    grain: 37,
     exposure: -1.5,
     tone: "agx",
     orbit: { azimuth: 0.5, elevation: -0.25, zoom: 2 },

@@ -2,8 +2,8 @@
 
     value = scale x half float         see `halfway.brdf.half_scale`
 
-A table goes over as RGBA in the order of a MERL
-file, which is that of a 3-D texture (width phi_d, height theta_d, depth theta_h). Alpha is 1 where the sample is
+A table goes over as RGBA in the order of its axes; without phi_h that is
+the order of a 3-D texture (width phi_d, height theta_d, depth theta_h). Alpha is 1 where the sample is
 measured and 0 elsewhere, where RGB is 0 too: the hardware's trilinear filter then gives the sum of w v and of w, and
 their quotient is the interpolation renormalised over the measured corners.
 """

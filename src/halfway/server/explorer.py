@@ -29,7 +29,7 @@ from ..space import PACES, SPACES, Embedding, Route, Scores, Space, lengths, mak
 from ..space import route as route_through
 from ..tasks import HERE, Work
 from .blocks import Block
-from .drawable import require_drawable
+from .drawable import bytes_on_card, coarsened, drawn, drawn_grid
 from .finding import attributes_view, found_view
 from .making import Once, Progress
 from .schema import (
@@ -50,12 +50,12 @@ from .schema import (
     Wanted,
     WeightTable,
 )
-from .taking import SUFFIXES, Taken, read, written
+from .taking import Taken, offered, read, written
 
 N_AXES = 3
 """Scores that can be looked at together."""
-N_TABLES = 16
-"""Tables kept ready to be sent, 11.7 MB each on the MERL grid."""
+TABLES_BYTES = 190e6
+"""Of tables kept ready to be sent: 16 of the MERL grid."""
 N_LEGS = 1000
 """Legs kept ready to be sent, some 10 kB each."""
 MAX_STOPS = 32
@@ -67,11 +67,6 @@ class Explorer:
 
     ``patience`` is how many seconds an answer may wait for what is computed once, before `NotYetError` says how far that is;
     None waits for it. ``make`` makes its spaces, as `make_space` does.
-
-    Raises
-    ------
-    LibraryError
-        When its tables depend on phi_h.
     """
 
     def __init__(
@@ -90,7 +85,6 @@ class Explorer:
         self._begin(library)
 
     def _begin(self, library: Library) -> None:
-        require_drawable(library)
         self.library = library
         progress = self._progress
         self._looks = Once(partial(Looks.fit, library, work=self._work), progress)
@@ -101,7 +95,8 @@ class Explorer:
             for name, blend in product(SPACES, Blend)
         }
         self._scores = Once(self._first_scores, progress)
-        self._block = lru_cache(N_TABLES)(partial(_block_of, library))
+        n_tables = max(1, int(TABLES_BYTES // bytes_on_card(drawn_grid(library.grid))))
+        self._block = lru_cache(n_tables)(partial(_block_of, library))
         self._leg = lru_cache(N_LEGS)(self._leg_of)
         self._mixer = Mixer(library, n_rows=12)
         control = partial(Control.of, library, mixer=self._mixer, work=self._work)
@@ -131,7 +126,7 @@ class Explorer:
             source=library.origin.source,
             licence=library.origin.licence,
             checksum=library.checksum,
-            grid=_axes(library.grid),
+            grid=_axes(drawn_grid(library.grid)),
             small_grid=_axes(small_grid(library.grid)),
             materials=[Material(name=name) for name in library.names],
             spaces=[
@@ -144,7 +139,8 @@ class Explorer:
                 PointLight(at=light.at, intensity=light.intensity)
                 for light in SCENES["spheres"].points
             ],
-            exports=list(SUFFIXES),
+            exports=offered(library.grid),
+            notice=coarsened(library),
         )
 
     def space_view(self, name: str, blend: str | None = None) -> SpaceView:
@@ -193,7 +189,7 @@ class Explorer:
         """The table of a recipe; or a ``small`` one on a coarser grid, in milliseconds."""
         recipe = self._recipe(document)
         if not small:
-            return Block.of_table(self._mixer.mix(recipe))
+            return Block.of_table(drawn(self._mixer.mix(recipe)))
         tables = self.pictures.tables
         values = tables.mix(self._weights(recipe), recipe.blend)
         return Block.of_table(TabularBrdf(values.reshape(3, *tables.grid.shape), tables.grid))
@@ -298,4 +294,4 @@ def _axes(grid: Grid) -> list[Axis]:
 
 
 def _block_of(library: Library, name: str) -> Block:
-    return Block.of_table(library.brdf(name))
+    return Block.of_table(drawn(library.brdf(name)))

@@ -9,7 +9,6 @@ from contextlib import suppress
 from ..errors import HalfwayError
 from ..library import Library
 from ..tasks import HERE, Work
-from .drawable import require_drawable
 from .page import Page
 
 PORT = 8765
@@ -30,12 +29,9 @@ def serve(
 
     Raises
     ------
-    LibraryError
-        When its tables depend on phi_h.
     HalfwayError
         When this installation has no page, or no port can be had.
     """
-    require_drawable(library)
     with listen(port) as listener:
         page = Page.load()
         had = listener.getsockname()[1]

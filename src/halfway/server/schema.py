@@ -90,6 +90,7 @@ class LibrarySummary(Model):
     licence: str
     checksum: str
     grid: list[Axis]
+    """On which tables are sent: the library's, or a coarser one."""
     small_grid: list[Axis]
     """Of the small tables of mixes."""
     materials: list[Material]
@@ -100,6 +101,8 @@ class LibrarySummary(Model):
     """Of the scene of three point lights."""
     exports: list[str]
     """Formats of ``/api/export/{format}``."""
+    notice: str = ""
+    """One line that the page says from the start; empty for none."""
 
 
 class EmbeddingView(Model):

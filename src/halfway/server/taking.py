@@ -18,6 +18,7 @@ from ..errors import FormatError, HalfwayError, OutputError
 from ..export import model_of, write_fit, write_scene
 from ..fit import fit
 from ..formats import MerlFile, encode_header, read_brdf, write_brdf
+from ..halfdiff import Grid
 
 SUFFIXES = {
     "merl": ".binary",
@@ -29,6 +30,8 @@ SUFFIXES = {
     "pbrt-v2": "-pbrt-v2.zip",
 }
 """Of the file of each format to take a material home in."""
+WITHOUT_PHI_H = {"merl", "pbrt-v2"}
+"""Formats that hold no table that depends on phi_h."""
 
 
 class Taken(NamedTuple):
@@ -36,6 +39,11 @@ class Taken(NamedTuple):
 
     parts: list[bytes | memoryview]
     summary: str = ""
+
+
+def offered(grid: Grid) -> list[str]:
+    """The formats that hold tables on a grid."""
+    return [each for each in SUFFIXES if grid.is_isotropic or each not in WITHOUT_PHI_H]
 
 
 def written(table: TabularBrdf, format: str, *, origin: str = "") -> Taken:

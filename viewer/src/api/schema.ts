@@ -64,6 +64,7 @@ export interface LibrarySummary {
   readonly paces: readonly string[];
   readonly lights: readonly PointLight[];
   readonly exports: readonly string[];
+  readonly notice: string;
 }
 
 /** The materials as points, whose first three coordinates can be looked at. */

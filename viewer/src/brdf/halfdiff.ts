@@ -7,8 +7,12 @@
 
 import { dot } from "../numbers";
 
-/** Local frame of the surface: normal +z. */
+/** Local frame of the surface: normal +z, tangent +x. */
 export type Direction = readonly [number, number, number];
+
+export function toDirection(theta: number, phi: number): Direction {
+  return [Math.sin(theta) * Math.cos(phi), Math.sin(theta) * Math.sin(phi), Math.cos(theta)];
+}
 
 /** The direction that is to the other side of the half vector h: 2 (w . h) h - w. */
 export function reflected(w: Direction, h: Direction): Direction {

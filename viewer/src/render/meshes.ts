@@ -1,6 +1,7 @@
 // A mesh from a person's file: triangles with normals, standing where the teapot stands.
 //
-// Files have y up, as `halfway render --mesh` reads them. Where a file has no normals, each vertex has the mean of its faces'.
+// Files have y up, as `halfway render --mesh` reads them. Where a file has no normals, each vertex has the mean of its faces'. Its
+// texture coordinates say where the tangent points; without them it runs level.
 
 import { BufferGeometry, type Mesh, type Object3D } from "three";
 import { OBJLoader } from "three/addons/loaders/OBJLoader.js";
@@ -43,15 +44,17 @@ function fromObj(text: string): BufferGeometry | null {
   new OBJLoader().parse(text).traverse((object: Object3D) => {
     if ((object as Mesh).isMesh) parts.push((object as Mesh).geometry);
   });
-  const whole = parts.every((part) => part.hasAttribute("normal"));
-  return parts.length ? mergeGeometries(parts.map((part) => only(part, whole))) : null;
+  const common = USED.filter((name) => parts.every((part) => part.hasAttribute(name)));
+  return parts.length ? mergeGeometries(parts.map((part) => only(part, common))) : null;
 }
 
-/** Positions, and normals where they are to be kept. */
-function only(geometry: BufferGeometry, normals: boolean): BufferGeometry {
+const USED = ["position", "normal", "uv"];
+
+/** Those of these attributes that it has. */
+function only(geometry: BufferGeometry, names: readonly string[]): BufferGeometry {
   const kept = new BufferGeometry().setIndex(geometry.index);
-  kept.setAttribute("position", geometry.getAttribute("position"));
-  if (normals) kept.setAttribute("normal", geometry.getAttribute("normal"));
+  for (const name of names)
+    if (geometry.hasAttribute(name)) kept.setAttribute(name, geometry.getAttribute(name));
   return kept;
 }
 
@@ -71,10 +74,17 @@ function checked(geometry: BufferGeometry | null, name: string): BufferGeometry 
   const nVertices = position.count;
   if (geometry.index?.array.some((i) => i >= nVertices))
     throw new Problem(`${name} has faces of vertices that it does not have: expected ${nVertices} at most.`);
-  if (geometry.hasAttribute("normal")) return only(geometry, true);
-  const smooth = mergeVertices(only(geometry, false));
+  return geometry.hasAttribute("normal") ? only(geometry, USED) : smoothed(geometry);
+}
+
+/** With normals of the faces around each position, over the seams of texture coordinates too. */
+function smoothed(geometry: BufferGeometry): BufferGeometry {
+  const smooth = mergeVertices(only(geometry, ["position"]));
   smooth.computeVertexNormals();
-  return smooth;
+  if (!geometry.hasAttribute("uv")) return smooth;
+  const corners = smooth.toNonIndexed();
+  const { uv } = (geometry.index ? only(geometry, ["position", "uv"]).toNonIndexed() : geometry).attributes;
+  return corners.setAttribute("uv", uv!);
 }
 
 function placed(geometry: BufferGeometry): BufferGeometry {

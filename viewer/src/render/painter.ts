@@ -79,8 +79,8 @@ export class Painter {
       throw new NoCardError(`This browser cannot draw into float textures (${needed.join(", ")}).`);
     const [uNormal, uPosition] = this.stage.target.textures;
     const surface = { uNormal, uPosition, uEye: this.stage.camera.position };
-    this.environment = new Pass(environmentShader, RUNNING_MEAN).set(surface);
-    this.points = new Pass(pointsShader, RUNNING_MEAN).set({
+    this.environment = new Pass(environmentShader(tables.grid), RUNNING_MEAN).set(surface);
+    this.points = new Pass(pointsShader(tables.grid), RUNNING_MEAN).set({
       ...surface,
       uLights: this.lightsAt(0),
       uIntensities: lights.map(({ intensity }) => intensity),
@@ -128,6 +128,7 @@ export class Painter {
     const { occluder } = this.stage;
     this.points.set({ uLights: this.lightsAt(view.turn) });
     this.pass.set({
+      uGrain: (view.grain * Math.PI) / 180,
       uBoxes: occluder?.boxes ?? null,
       uTriangles: occluder?.triangles ?? null,
       uBoxCount: occluder?.nBoxes ?? 0,
@@ -274,13 +275,13 @@ export class Painter {
   /** Add one sample of a table to the mean of `samples` in a layer. */
   private draw(
     pass: Pass,
-    { texture, scale, lobe }: TableOnCard,
+    { texture, scale, turns, lobe, lobeTurns }: TableOnCard,
     samples: number,
     target: THREE.WebGLArrayRenderTarget,
     index: number,
   ): void {
-    pass.set({ uTable: texture, uScale: scale });
-    if (pass === this.environment) pass.set({ uLobe: lobe, uSample: samples });
+    pass.set({ uTable: texture, uScale: scale, uTurns: turns });
+    if (pass === this.environment) pass.set({ uLobe: lobe, uLobeTurns: lobeTurns, uSample: samples });
     pass.material.blending = samples === 0 ? THREE.NoBlending : THREE.CustomBlending;
     pass.material.blendAlpha = 1 / (samples + 1);
     pass.draw(this.renderer, target as never, index);

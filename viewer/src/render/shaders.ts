@@ -2,6 +2,8 @@
 
 import * as THREE from "three";
 
+import type { DrawableGrid } from "../brdf/grid";
+import { addressing } from "./addressing";
 import brdf from "./glsl/brdf.glsl?raw";
 import composite from "./glsl/composite.frag.glsl?raw";
 import environment from "./glsl/environment.glsl?raw";
@@ -16,6 +18,7 @@ import shade from "./glsl/shade.frag.glsl?raw";
 import shadow from "./glsl/shadow.glsl?raw";
 import sphere from "./glsl/sphere.frag.glsl?raw";
 import srgb from "./glsl/srgb.glsl?raw";
+import tangent from "./glsl/tangent.glsl?raw";
 import { OCCLUDER_BITS } from "./occluder";
 
 export const MAX_TERMS = 32;
@@ -23,17 +26,23 @@ export const MAX_TERMS = 32;
 const STEPS = [0xc13fa9a9, 0x91e10da5, 0xc13fa9a9, 0x91e10da5] as const;
 
 const HEAD = "precision highp float;\nprecision highp int;\n";
-const surface = halfdiff + brdf + shadow.replace("@BITS@", String(OCCLUDER_BITS));
+const shadows = shadow.replace("@BITS@", String(OCCLUDER_BITS));
 
-export const pointsShader = `${HEAD}#define POINTS\n${surface}${shade}`;
-export const environmentShader =
-  HEAD +
-  surface +
-  random.replace("@STEPS@", STEPS.map((step) => `${step}u`).join(", ")) +
-  inversion +
-  environment +
-  lobe +
-  shade;
+/** Of materials on a grid: each light has its own. */
+export function pointsShader(grid: DrawableGrid): string {
+  return `${HEAD}#define POINTS\n${surface(grid)}${shade}`;
+}
+
+export function environmentShader(grid: DrawableGrid): string {
+  return HEAD + surface(grid) + sampling + shade;
+}
+
+function surface(grid: DrawableGrid): string {
+  return addressing(grid) + tangent + halfdiff + brdf + shadows;
+}
+
+const sampling =
+  random.replace("@STEPS@", STEPS.map((step) => `${step}u`).join(", ")) + inversion + environment + lobe;
 export const sphereShader = HEAD + sphere;
 export const compositeShader =
   HEAD +
@@ -45,7 +54,7 @@ export function meshMaterial(): THREE.RawShaderMaterial {
   return new THREE.RawShaderMaterial({
     glslVersion: THREE.GLSL3,
     vertexShader: HEAD + meshVertex,
-    fragmentShader: HEAD + meshFragment,
+    fragmentShader: HEAD + tangent + meshFragment,
     side: 2,
   });
 }

@@ -3,19 +3,23 @@
 import * as THREE from "three";
 
 import type { Client } from "../api/client";
-import type { Axis } from "../api/schema";
-import type { DrawableGrid } from "../brdf/grid";
+import { type DrawableGrid, toDrawable } from "../brdf/grid";
 import { lobe } from "../brdf/lobe";
 import type { Table } from "../brdf/table";
 import { sum } from "../numbers";
 import { pauseAfter } from "../paced";
 import { chances } from "./chances";
+import { stack } from "./stack";
 
 export interface TableOnCard {
   readonly table: Table;
   readonly texture: THREE.Data3DTexture;
   readonly scale: THREE.Vector3;
+  /** Blocks of phi_h in the texture, and how many of them are above each other. */
+  readonly turns: THREE.Vector2;
+  /** How often to try half vectors of each theta_h, and of each phi_h at it. */
   readonly lobe: THREE.DataTexture;
+  readonly lobeTurns: THREE.DataTexture;
 }
 
 /** Of the table of a mix: no material is called so. Without what tells it from others, of one that has not come. */
@@ -30,7 +34,8 @@ export function isFiner(name: string, than: string): boolean {
 
 const MIXED = "\0mixed ";
 const SMALL = " small";
-/** 11.7 MB each on the MERL grid. */
+/** Of tables that are kept: 24 on the MERL grid, or as many smaller ones. */
+const MAX_BYTES = 281e6;
 const MAX_TABLES = 24;
 /** How many are fetched that only the way ahead needs. */
 const MAX_AHEAD = 4;
@@ -48,11 +53,15 @@ export class Tables {
   private readonly failures = new Map<string, number>();
   private readonly resting = new Set<string>();
   private wanted: readonly string[] = [];
+  private readonly most: number;
 
   constructor(
     private readonly client: Client,
-    private readonly grid: DrawableGrid,
-  ) {}
+    readonly grid: DrawableGrid,
+  ) {
+    const bytes = 8 * grid.reduce((product, { size }) => product * size, 1);
+    this.most = Math.min(MAX_TABLES, Math.floor(MAX_BYTES / bytes));
+  }
 
   get(name: string): TableOnCard | undefined {
     return this.loaded.get(name);
@@ -74,7 +83,7 @@ export class Tables {
   want(needed: readonly string[], ahead: readonly string[] = []): void {
     const next = ahead.filter((name) => !needed.includes(name));
     const kept = next.filter((name, i) => i < MAX_AHEAD || this.loaded.has(name));
-    this.wanted = [...needed, ...kept].slice(0, Math.max(MAX_TABLES, needed.length));
+    this.wanted = [...needed, ...kept].slice(0, Math.max(this.most, needed.length));
     this.fetchNext();
   }
 
@@ -120,38 +129,41 @@ export class Tables {
   }
 
   private makeRoom(): void {
-    for (const [name, { texture, lobe }] of this.loaded) {
-      if (this.loaded.size < MAX_TABLES) return;
+    for (const [name, { texture, lobe, lobeTurns }] of this.loaded) {
+      if (this.loaded.size < this.most) return;
       if (this.wanted.includes(name)) continue;
-      texture.dispose();
-      lobe.dispose();
+      for (const each of [texture, lobe, lobeTurns]) each.dispose();
       this.loaded.delete(name);
     }
   }
 }
 
 function toCard(table: Table): TableOnCard {
-  const [thetaH, thetaD, phiD] = table.grid;
-  const texture = new THREE.Data3DTexture(table.halfs, phiD.size, thetaD.size, thetaH.size);
+  const { texels, size, turns } = stack(table);
+  const texture = new THREE.Data3DTexture(texels, ...size);
   texture.format = THREE.RGBAFormat;
   texture.type = THREE.HalfFloatType;
   texture.minFilter = texture.magFilter = THREE.LinearFilter;
   texture.wrapS = THREE.RepeatWrapping;
   texture.wrapT = texture.wrapR = THREE.ClampToEdgeWrapping;
   texture.needsUpdate = true;
-  const { mass, density } = lobe(table);
+  const { mass, ofThetaH, density } = lobe(table);
   return {
     table,
     texture,
     scale: new THREE.Vector3(...table.scale),
-    lobe: chances(mass, density, mass.length),
+    turns: new THREE.Vector2(...turns),
+    lobe: chances(ofThetaH, density, ofThetaH.length),
+    lobeTurns: chances(mass, mass, turns[0]),
   };
 }
 
 /** A white matte table of one sample, in the place of one that has not come. */
 export function whiteTable(): TableOnCard {
-  const axis = (angle: string, stop: number): Axis => ({ angle, size: 1, stop, power: 1, periodic: false });
-  const grid = [axis("theta_h", Math.PI / 2), axis("theta_d", Math.PI / 2), axis("phi_d", Math.PI)] as const;
+  const angles = { theta_h: Math.PI / 2, theta_d: Math.PI / 2, phi_d: Math.PI };
+  const grid = toDrawable(
+    Object.entries(angles).map(([angle, stop]) => ({ angle, size: 1, stop, power: 1, periodic: false })),
+  );
   return toCard({ name: "white", grid, halfs: new Uint16Array(4).fill(ONE), scale: [1, 1, 1] });
 }
 

@@ -1,6 +1,7 @@
-// Polar lobes in the plane of incidence: the light comes from the left, and how much goes where is how far the curve reaches.
+// Polar lobes in the plane of incidence, at an azimuth of the light: it comes from the left, and how much goes where is how far the
+// curve reaches.
 
-import { type Direction, toHalfDiff } from "../../brdf/halfdiff";
+import { type Direction, toDirection, toHalfDiff } from "../../brdf/halfdiff";
 import { evaluate } from "../../brdf/table";
 import { clamp } from "../../numbers";
 import {
@@ -20,12 +21,15 @@ import {
 const ANGLES = Array.from({ length: 359 }, (_, i) => ((i - 179) / 2) * (Math.PI / 180));
 const DECADES = 6;
 
-export function lobes(thetaIDegrees: number, scale: Scale): Plot {
-  const thetaI = (thetaIDegrees * Math.PI) / 180;
-  const wi: Direction = [-Math.sin(thetaI), 0, Math.cos(thetaI)];
-  const towards = (angle: number): Direction => [Math.sin(angle), 0, Math.cos(angle)];
+export function lobes(thetaIDegrees: number, phiIDegrees: number, scale: Scale): Plot {
+  const [thetaI, phiI] = [thetaIDegrees, phiIDegrees].map((degrees) => (degrees * Math.PI) / 180) as [
+    number,
+    number,
+  ];
+  const wi = toDirection(thetaI, phiI);
+  const towards = (angle: number): Direction => toDirection(-angle, phiI);
   return {
-    key: `lobes ${thetaIDegrees}`,
+    key: `lobes ${thetaIDegrees} ${phiIDegrees}`,
     length: 3 * ANGLES.length,
     nSteps: 1,
     fill: (table, samples) => {

@@ -1,6 +1,6 @@
 // The BRDF itself: polar lobes for a light direction, a slice of the table, or the albedo, with the numbers under the pointer.
 
-import type { DrawableGrid } from "../../brdf/grid";
+import { type DrawableGrid, isIsotropic } from "../../brdf/grid";
 import type { Context } from "../../context";
 import { dropdown, el, onResize, segments, style } from "../../dom";
 import { paced } from "../../paced";
@@ -19,12 +19,29 @@ const BESIDE = 60;
 
 const NOTHING = new Float64Array();
 
-/** What a view can be told: an angle, named as it is written, up to `max`; and a scale. */
-interface Settings {
+/** An angle that a view can be told, named as it is written, up to `max`. */
+interface Dial {
   readonly angle: readonly [letter: string, index: string];
   readonly max: number;
   degrees: number;
-  scale: Scale;
+}
+
+/** What a view can be told. */
+interface Settings {
+  /** The azimuth from the tangent: of the light, or phi_h. It matters to tables that depend on phi_h. */
+  readonly turn: Dial;
+  readonly angle: Dial | null;
+  scale: Scale | null;
+}
+
+function toSettings([, phiH]: DrawableGrid): Record<PlotKind, Settings> {
+  const max = Math.round((phiH.stop * 180) / Math.PI) - 1;
+  const turn = (index: string): Dial => ({ angle: ["φ", index], max, degrees: 0 });
+  return {
+    lobes: { turn: turn("i"), angle: { angle: ["θ", "i"], max: 85, degrees: 45 }, scale: "cube root" },
+    slice: { turn: turn("h"), angle: { angle: ["φ", "d"], max: 179, degrees: 90 }, scale: "linear" },
+    albedo: { turn: turn("i"), angle: null, scale: null },
+  };
 }
 
 export function brdfPanel(context: Context): HTMLElement {
@@ -33,11 +50,7 @@ export function brdfPanel(context: Context): HTMLElement {
 
 class BrdfPanel {
   readonly element: HTMLElement;
-  private readonly settings: Record<PlotKind, Settings | null> = {
-    lobes: { angle: ["θ", "i"], max: 85, degrees: 45, scale: "cube root" },
-    slice: { angle: ["φ", "d"], max: 179, degrees: 90, scale: "linear" },
-    albedo: null,
-  };
+  private readonly settings: Record<PlotKind, Settings>;
   private readonly samples = new Samples();
   private readonly canvas: HTMLCanvasElement;
   private readonly reading = el("p.quiet.reading");
@@ -47,7 +60,8 @@ class BrdfPanel {
   private timer: ReturnType<typeof setTimeout> | undefined;
 
   constructor(private readonly context: Context) {
-    const { store } = context;
+    const { store, tables } = context;
+    this.settings = toSettings(tables.grid);
     this.canvas = el("canvas", {
       role: "img",
       "aria-label": "The BRDF of the mixed material",
@@ -89,39 +103,43 @@ class BrdfPanel {
     );
     this.context.store.watch(["plot"], ({ plot }) => {
       mark(plot);
-      const settings = this.settings[plot];
-      controls.replaceChildren(...(settings ? [this.angle(settings), this.scale(settings)] : []));
+      const { turn, angle, scale } = this.settings[plot];
+      const dials = isIsotropic(this.context.tables.grid) ? [angle] : [angle, turn];
+      controls.replaceChildren(
+        ...dials.filter((dial) => dial !== null).map((dial) => this.dial(dial)),
+        ...(scale === null ? [] : [this.scale(this.settings[plot], scale)]),
+      );
       this.update();
     });
     return element;
   }
 
-  private angle(settings: Settings): HTMLElement {
-    const [letter, index] = settings.angle;
+  private dial(dial: Dial): HTMLElement {
+    const [letter, index] = dial.angle;
     const input = el("input", {
       type: "range",
       min: 0,
-      max: settings.max,
+      max: dial.max,
       step: 1,
-      "aria-label": "Angle in degrees",
-      value: settings.degrees,
+      "aria-label": `Angle ${letter}${index} in degrees`,
+      value: dial.degrees,
       oninput: () => {
-        settings.degrees = Number(input.value);
-        output.textContent = `${settings.degrees}°`;
+        dial.degrees = Number(input.value);
+        output.textContent = `${dial.degrees}°`;
         this.update();
       },
     });
-    const output = el("output", `${settings.degrees}°`);
+    const output = el("output", `${dial.degrees}°`);
     return el("label.line", el("span", letter, el("sub", index)), input, output);
   }
 
-  private scale(settings: Settings): HTMLElement {
+  private scale(settings: Settings, scale: Scale): HTMLElement {
     const options = SCALES.map((scale) => [scale] as const);
-    const select = dropdown({ "aria-label": "Scale" }, options, (scale) => {
-      settings.scale = scale;
+    const select = dropdown({ "aria-label": "Scale" }, options, (chosen) => {
+      settings.scale = chosen;
       this.update();
     });
-    select.value = settings.scale;
+    select.value = scale;
     return select;
   }
 
@@ -131,11 +149,11 @@ class BrdfPanel {
   }
 
   private plot(): Plot {
-    const { lobes: ofLobes, slice: ofSlice } = this.settings;
-    const { library, plot } = this.context.store.get();
-    const grid = library.grid as unknown as DrawableGrid;
-    if (plot === "lobes") return lobes(ofLobes!.degrees, ofLobes!.scale);
-    return plot === "slice" ? slice(grid, ofSlice!.degrees, ofSlice!.scale) : albedo();
+    const { grid } = this.context.tables;
+    const { plot } = this.context.store.get();
+    const { turn, angle, scale } = this.settings[plot];
+    if (plot === "lobes") return lobes(angle!.degrees, turn.degrees, scale!);
+    return plot === "slice" ? slice(grid, turn.degrees, angle!.degrees, scale!) : albedo(grid, turn.degrees);
   }
 
   private draw(): void {

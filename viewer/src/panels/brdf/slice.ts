@@ -1,7 +1,7 @@
-// The table itself at one phi_d, theta_d over theta_h: the picture of B. Burley, "Physically-Based Shading at Disney", 2012, section 3.
+// The table itself at one phi_d and phi_h, theta_d over theta_h: the picture of B. Burley, "Physically-Based Shading at Disney", 2012, section 3.
 
 import type { Axis } from "../../api/schema";
-import { toAngle, toPosition } from "../../brdf/grid";
+import { type DrawableGrid, toAngle, toPosition } from "../../brdf/grid";
 import { sample } from "../../brdf/table";
 import { toByte } from "../../colour";
 import {
@@ -21,21 +21,22 @@ const WHITE = 1 / Math.PI;
 const LOWEST = 1e-3;
 const DEGREE = Math.PI / 180;
 
-export function slice(grid: readonly [Axis, Axis, Axis], phiDDegrees: number, scale: Scale): Plot {
-  const [axisH, axisD, axisP] = grid;
-  const column = Math.min(axisP.size - 1, Math.floor((phiDDegrees * DEGREE * axisP.size) / axisP.stop));
+export function slice(grid: DrawableGrid, phiHDegrees: number, phiDDegrees: number, scale: Scale): Plot {
+  const [axisH, axisT, axisD, axisP] = grid;
+  const cell = (axis: Axis, degrees: number) => Math.floor(toPosition(axis, degrees * DEGREE)) % axis.size;
+  const [turn, column] = [cell(axisT, phiHDegrees), cell(axisP, phiDDegrees)];
   const [nH, nD] = [axisH.size, axisD.size];
   return {
-    key: `slice ${column}`,
+    key: `slice ${turn} ${column}`,
     length: 3 * nH * nD,
     nSteps: 1,
     fill: (table, samples) => {
       // A small table stands in for the full one: the cells at the same angles.
-      const at = (axis: 0 | 1 | 2, i: number) =>
+      const at = (axis: 0 | 1 | 2 | 3, i: number) =>
         Math.floor(toPosition(table.grid[axis], toAngle(grid[axis], i + 0.5)));
       for (let h = 0; h < nH; h++) {
         for (let d = 0; d < nD; d++) {
-          const value = sample(table, at(0, h), at(1, d), at(2, column));
+          const value = sample(table, at(0, h), at(1, turn), at(2, d), at(3, column));
           samples.set(value ?? [Number.NaN, Number.NaN, Number.NaN], 3 * (h * nD + d));
         }
       }

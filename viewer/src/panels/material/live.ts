@@ -58,7 +58,7 @@ export class LivePicture {
       this.painter.dispose();
     });
     onResize(canvas, (width, height) => this.resize(width, height));
-    store.watch(["shape", "mesh", "orbit", "light", "turn", "ownLight"], () => this.look());
+    store.watch(["shape", "mesh", "orbit", "light", "turn", "ownLight", "grain"], () => this.look());
     store.watch([...DRAWN, "split", "exposure", "tone"], () => {
       this.quality.materialChanged(performance.now());
       this.next();

@@ -1,5 +1,6 @@
 // The material: a live picture of the exact mixed table.
 
+import { isIsotropic } from "../../brdf/grid";
 import type { Context } from "../../context";
 import { dropdown, el, iconButton, popover } from "../../dom";
 import { NoCardError } from "../../render/card";
@@ -37,7 +38,7 @@ export function materialPanel(context: Context): HTMLElement {
     area,
     el(
       "div.line.wrap.bar.bottom",
-      shapeChoice(context),
+      el("div.line.wrap", shapeChoice(context), !isIsotropic(context.tables.grid) && grain(context)),
       el("div.line.wrap", lightChoice(context), lightSettings(context), exposure(context)),
     ),
     notices(context, "material"),
@@ -121,6 +122,24 @@ function lightSettings({ store }: Context): HTMLElement {
     iconButton("tune", "Turn the light, tone mapping", () => form.togglePopover()),
     form,
   );
+}
+
+/** How the material is turned against the tangent of the surface. */
+function grain({ store }: Context): HTMLElement {
+  const [min, max] = TURNS;
+  const input = el("input", {
+    ...{ type: "range", name: "grain", min, max, step: 1 },
+    "aria-label": "Turn of the material in degrees",
+    oninput: () => store.set({ grain: Number(input.value) }),
+    ondblclick: () => store.set({ grain: 0 }),
+  });
+  const output = el("output");
+  store.watch(["grain"], (state) => {
+    input.value = String(state.grain);
+    output.textContent = `${state.grain}°`;
+  });
+  const title = "Turn the material against the tangent of the surface (double click: 0)";
+  return el("label.line.exposure", { title }, "grain", input, output);
 }
 
 const TONE_TITLES = { none: "none: colours as they are", agx: "AgX", filmic: "filmic (ACES)" } as const;

@@ -1,4 +1,4 @@
-// What a camera sees of a sphere, exactly: normal and position of each pixel.
+// What a camera sees of a sphere, exactly: normal and position of each pixel. Its tangents are level.
 
 uniform mat4 uToWorld; // from clip coordinates
 uniform vec3 uEye;
@@ -23,5 +23,5 @@ void main() {
   }
   vec3 at = ray * (along - sqrt(inside));
   normal = vec4((at - centre) / uSphere.w, 1.0);
-  position = vec4(at + uEye, 1.0);
+  position = vec4(at + uEye, 0.0);
 }
