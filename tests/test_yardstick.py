@@ -64,7 +64,7 @@ def test_ssim_is_that_of_scikit_image():
 
 
 def test_a_table_is_no_different_from_itself(tables):
-    scores = Judge.of(GRID).scores(tables.row(0), tables.row(0))
+    scores = Judge.of(GRID).knowing(tables.row(0)).scores(tables.row(0))
     assert set(scores) == set(MEASURES)
     for name, value in scores.items():
         best = {"psnr": 99.0, "ssim": 1.0}.get(name.partition(".")[0], 0.0)
@@ -72,13 +72,14 @@ def test_a_table_is_no_different_from_itself(tables):
 
 
 def test_what_is_negative_counts_as_0(tables):
-    judge, row = Judge.of(GRID), tables.row(0)
-    assert judge.scores(row, -row) == judge.scores(row, 0 * row)
+    known, row = Judge.of(GRID).knowing(tables.row(0)), tables.row(0)
+    assert known.scores(-row) == known.scores(0 * row)
 
 
 def test_the_table_measures_are_those_of_the_package(tables):
     a, b = tables.brdf(tables.names[0]), tables.brdf(tables.names[1])
-    scores = Judge.of(GRID).scores(*(x.values.reshape(3, -1) for x in (a, b)))
+    truth, estimate = (x.values.reshape(3, -1) for x in (a, b))
+    scores = Judge.of(GRID).knowing(truth).scores(estimate)
     assert scores["log-relative"] == difference(a, b, "log-relative").below
 
 
@@ -139,7 +140,7 @@ def test_a_method_reconstructs_what_it_learned(tables, name):
     few = part(tables, tables.names[:3])
     k, values = list(RECONSTRUCTIONS[name](tables, few, [9]))[-1]
     assert k in (1, 9)
-    scores = [Judge.of(GRID).scores(*each) for each in zip(*(np.moveaxis(x, 1, 0) for x in (values_of(few), values)), strict=True)]  # fmt: skip
+    scores = [Judge.of(GRID).knowing(truth).scores(found) for truth, found in zip(*(np.moveaxis(x, 1, 0) for x in (values_of(few), values)), strict=True)]  # fmt: skip
     assert max(each["mean-log"] for each in scores) < 0.01
 
 
@@ -148,8 +149,8 @@ def test_a_method_recovers_what_it_learned_from_many_samples(tables, name):
     sampling = RECOVERIES[name].method(tables, 12, np.random.default_rng(0))
     material = tables.brdf(tables.names[2])
     recovered = sampling.complete(material.eval(sampling.wi, sampling.wo))
-    scores = Judge.of(GRID).scores(tables.row(2), recovered)
-    nothing = Judge.of(GRID).scores(tables.row(2), 0 * tables.row(2))
+    known = Judge.of(GRID).knowing(tables.row(2))
+    scores, nothing = known.scores(recovered), known.scores(0 * tables.row(2))
     assert scores["mean-log"] < nothing["mean-log"] / 4
 
 
@@ -220,4 +221,7 @@ def test_the_published_neural_process_decodes_its_own_materials(shared_data):
     for i, name in enumerate(few.names):
         z = np.load(latent / f"{name}_latentVector.npy")[0].ravel().astype(np.float32)
         table = TabularBrdf(networks.table(z, GRID).reshape(3, *GRID.shape), GRID)
-        assert Judge.of(GRID).scores(few.row(i), table.values.reshape(3, -1))["mean-log"] < 0.02
+        assert (
+            Judge.of(GRID).knowing(few.row(i)).scores(table.values.reshape(3, -1))["mean-log"]
+            < 0.02
+        )

@@ -25,6 +25,7 @@ from ..library import Library
 from ..measurements import Measurements
 from ..recipes import Mixer
 from ..recovery import Recovery, Setup, plan
+from ..recovery.log_relative import cosines_at, mapped, unmapped
 from .data import values_of
 from .reconstruction import LogRelative
 
@@ -127,12 +128,13 @@ def unplanned(train: Library, n: int, rng: np.random.Generator) -> Sampling | No
 
 
 def completion(train: Library, wi: Directions, wo: Directions) -> Complete:
-    """What `halfway.recover` makes of values at these directions: the completed table."""
-    setup = Setup.of(train, wi, wo)
+    """What `halfway.recover` makes of values at these directions: the completed table, without its interval."""
+    setup, cosines = Setup.of(train, wi, wo), cosines_at(train.grid, slice(None))
+    rows = mapped(values_of(train), cosines).reshape(3 * len(train), -1)
 
     def completed(values: Float64[np.ndarray, "n 3"]) -> np.ndarray:
-        found = Recovery.of(setup, Measurements(wi, wo, values)).completion()
-        return found.table.values.reshape(3, -1)
+        weights = Recovery.of(setup, Measurements(wi, wo, values)).weights
+        return unmapped(weights.astype(np.float32) @ rows, cosines)
 
     return completed
 
