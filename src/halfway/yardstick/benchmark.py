@@ -86,12 +86,13 @@ def benchmark(
     kept = Journal.open(journal, _identity(library, on, quick, seed))
     run = _Run.of(gridded(library, on, work=work), kept, work)
     others, skipped = _fits(library, quick, work)
-    results: list[Result] = []
-    for i, each in enumerate(chosen):
-        methods = dict(reconstructions) | (others | dict(fits) if i == 0 else {})
-        results += _reconstructed(run, each, methods, QUICK_KS if quick else KS)
-    draws = [(seed, i) for i in range(QUICK_N_DRAWS if quick else N_DRAWS)]
-    results += _recovered(run, chosen[0], recoveries, QUICK_NS if quick else NS, draws)
+    ks, ns, n_draws = (QUICK_KS, QUICK_NS, QUICK_N_DRAWS) if quick else (KS, NS, N_DRAWS)
+    draws = [(seed, i) for i in range(n_draws)]
+    first, *rest = chosen
+    results = [*_reconstructed(run, first, {**reconstructions, **others, **fits}, ks)]
+    results += _recovered(run, first, recoveries, ns, draws)
+    for each in rest:
+        results += _reconstructed(run, each, reconstructions, ks)
     results += _halfway(on, work)
     if answers:
         results += _triplets(answers, library, work)

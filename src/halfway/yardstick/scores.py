@@ -19,15 +19,14 @@ from typing import NamedTuple
 import numpy as np
 from jaxtyping import Float, Float64
 
-from .._types import Table
+from .._types import Mask, Table
 from ..brdf import TabularBrdf, difference, metrics, quadrature
 from ..colour import to_srgb
 from ..halfdiff import Grid
 from ..look import (
     JUDGING_SCENE,
     PACING_SCENE,
-    SphereOperator,
-    SphereScene,
+    FilledSphere,
     appearance,
     ciede2000_difference,
     flip,
@@ -75,11 +74,15 @@ class Judge:
     """Compares tables on one grid."""
 
     grid: Grid
-    operators: tuple[SphereOperator, ...]
+    spheres: tuple[FilledSphere, ...]
+    pixels: tuple[Mask, ...]
+    """Of the spheres, in the picture of each scene."""
 
     @classmethod
     def of(cls, grid: Grid) -> "Judge":
-        return cls(grid, tuple(SphereOperator.of(scene, grid) for scene in SCENES))
+        mask = grid.mask()
+        spheres = (FilledSphere.of(scene, grid, measured=mask) for scene in SCENES)
+        return cls(grid, tuple(spheres), tuple(scene.mask() for scene in SCENES))
 
     def knowing(self, truth: Table) -> "Known":
         """What estimates of a material are compared with."""
@@ -87,7 +90,8 @@ class Judge:
 
     def pictures(self, table: Table) -> list[Pixels]:
         """Of the sphere in each scene, linear RGB."""
-        return [operator.picture(table).astype(np.float64) for operator in self.operators]
+        filled = np.nan_to_num(table)[:, None]
+        return [sphere.pictures(filled)[0].astype(np.float64) for sphere in self.spheres]
 
 
 @dataclass(frozen=True, eq=False)
@@ -99,17 +103,19 @@ class Known:
     pictures: list[Pixels]
 
     def scores(self, estimate: np.ndarray) -> Scores:
-        """All `MEASURES` of an estimate; what is negative in it counts as 0."""
+        """All `MEASURES` of an estimate, where the material is measured; what is negative counts as 0."""
         sound, grid = np.maximum(estimate, 0).astype(np.float32), self.judge.grid
+        sound[np.isnan(self.truth)] = np.nan
         f, g = (TabularBrdf(x.reshape(3, *grid.shape), grid) for x in (self.truth, sound))
         scores = {"mean-log": _mean_log(grid, self.truth, sound)}
         scores |= {
             name: difference(f, g, name).below
             for name in TABLE_MEASURES.keys() & metrics.MAPPINGS.keys()
         }
-        for scene, *pictures in zip(SCENES, self.pictures, self.judge.pictures(sound), strict=True):
-            seen = _picture_scores(scene, *pictures)
-            scores |= {f"{name}.{scene.name}": value for name, value in seen.items()}
+        pixels, pictures = self.judge.pixels, self.judge.pictures(sound)
+        for scene, mask, *pair in zip(SCENES, pixels, self.pictures, pictures, strict=True):
+            of_scene = _picture_scores(mask, *pair)
+            scores |= {f"{name}.{scene.name}": value for name, value in of_scene.items()}
         return scores
 
 
@@ -121,15 +127,10 @@ def _mean_log(grid: Grid, truth: Table, estimate: Table) -> float:
     return float(np.nanmean(np.abs(f - g)))
 
 
-def _picture_scores(
-    scene: SphereScene,
-    truth: Pixels,
-    estimate: Pixels,
-) -> Scores:
+def _picture_scores(mask: Mask, truth: Pixels, estimate: Pixels) -> Scores:
     coded = [to_srgb(x) for x in (truth, estimate)]
     off = coded[0] - coded[1]
     square = float(np.square(off).mean())
-    mask = scene.mask()
     whole = [_whole(x, mask) for x in (*coded, truth, estimate)]
     return {
         "mae": float(np.abs(off).mean()),
