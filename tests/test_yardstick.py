@@ -9,14 +9,18 @@ from numpy.testing import assert_allclose
 from skimage.metrics import structural_similarity
 
 from halfway import yardstick
-from halfway.brdf import TabularBrdf, difference
+from halfway.brdf import TabularBrdf, difference, tabulate
 from halfway.colour import to_srgb
 from halfway.errors import FormatError, HalfwayError
+from halfway.formats import NeuralBrdf
 from halfway.halfdiff import Grid
 from halfway.library import open_library
 from halfway.look import flip, shown
+from halfway.tasks import Threads, Work
+from halfway.yardstick import neural_fit
 from halfway.yardstick.benchmark import benchmark
 from halfway.yardstick.data import gridded, part, values_of
+from halfway.yardstick.journal import Journal
 from halfway.yardstick.reconstruction import RECONSTRUCTIONS, Linear, LogRelative, Root
 from halfway.yardstick.results import Result
 from halfway.yardstick.scores import MEASURES, Judge, ssim
@@ -160,6 +164,77 @@ def test_results_of_draws_have_an_interval():
     assert (result.scores, result.n_materials, result.n_draws) == ({"log": 2.0}, 2, 3)
     assert result.low["log"] == pytest.approx(1.05)
     assert result.high["log"] == pytest.approx(2.95)
+
+
+def test_a_network_fits_what_a_network_made():
+    """Five times nearer than the best constant, in the loss that it lowers: where that is not lowered, it stays there."""
+    rng = np.random.default_rng(4)
+    layers = [rng.normal(size=shape, scale=0.4).astype(np.float32) for shape in neural_fit.SHAPES]
+    grid = Grid.merl(12, 6, 8)
+    truth = tabulate(NeuralBrdf(*layers), grid)
+    known = Judge.of(grid).knowing(truth.values.reshape(3, -1))
+    network = neural_fit.fitted(truth, n_epochs=2000)
+    constant = np.nanmedian(truth.values.reshape(3, -1), axis=1, keepdims=True)
+    found = known.scores(network.sample_rows(grid, slice(None)).reshape(3, -1))
+    assert found["mean-log"] < known.scores(constant + 0 * known.truth)["mean-log"] / 5
+
+
+def test_a_network_that_is_dark_does_not_stay_so(monkeypatch):
+    """It begins below 0 in every channel, where max(0, exp(y) - 1) has no slope."""
+    begin = neural_fit._start
+
+    def darkly(rng, f):
+        layers = begin(rng, f)
+        layers[-1][:] = -1
+        return layers
+
+    monkeypatch.setattr(neural_fit, "_start", darkly)
+    white = TabularBrdf(np.full((3, *GRID.shape), 0.3, np.float32), GRID)
+    values = neural_fit.fitted(white, n_epochs=400).sample_rows(GRID, slice(None))
+    assert np.nanmean(values) > 0.2
+
+
+# A run that is stopped
+
+
+def twice(journal, stop_at=None):
+    measured = []
+
+    def measure(x):
+        if x == stop_at:
+            raise KeyboardInterrupt
+        measured.append(x)
+        return [2 * x]
+
+    return journal.run(measure, [0, 1, 2], ("t", 5), Work(Threads(1)), label=""), measured
+
+
+def test_what_was_measured_is_not_measured_again(tmp_path):
+    path = tmp_path / "measured.jsonl"
+    with pytest.raises(KeyboardInterrupt):
+        twice(Journal.open(path, {"seed": 0}), stop_at=2)
+    n_known = len(path.read_text().splitlines()) - 1
+    results, measured = twice(Journal.open(path, {"seed": 0}))
+    assert results == [[0], [2], [4]]
+    assert measured == [0, 1, 2][n_known:]
+
+
+def test_a_line_that_was_cut_off_is_measured_again(tmp_path):
+    path = tmp_path / "measured.jsonl"
+    twice(Journal.open(path, {"seed": 0}))
+    path.write_text(path.read_text()[:-4])
+    for again in ([2], []):
+        results, measured = twice(Journal.open(path, {"seed": 0}))
+        assert (results, measured) == ([[0], [2], [4]], again)
+
+
+def test_what_a_run_with_another_seed_measured_is_refused(tmp_path):
+    path = tmp_path / "measured.jsonl"
+    twice(Journal.open(path, {"seed": 0}))
+    with pytest.raises(
+        HalfwayError, match=r"measured\.jsonl .* of another seed: expected the same"
+    ):
+        Journal.open(path, {"seed": 1})
 
 
 # The whole
