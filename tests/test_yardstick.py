@@ -173,7 +173,7 @@ def test_a_network_fits_what_a_network_made():
     grid = Grid.merl(12, 6, 8)
     truth = tabulate(NeuralBrdf(*layers), grid)
     known = Judge.of(grid).knowing(truth.values.reshape(3, -1))
-    network = neural_fit.fitted(truth, n_epochs=2000)
+    network = neural_fit.fitted(truth, n_steps=4000)
     constant = np.nanmedian(truth.values.reshape(3, -1), axis=1, keepdims=True)
     found = known.scores(network.sample_rows(grid, slice(None)).reshape(3, -1))
     assert found["mean-log"] < known.scores(constant + 0 * known.truth)["mean-log"] / 5
@@ -190,7 +190,7 @@ def test_a_network_that_is_dark_does_not_stay_so(monkeypatch):
 
     monkeypatch.setattr(neural_fit, "_start", darkly)
     white = TabularBrdf(np.full((3, *GRID.shape), 0.3, np.float32), GRID)
-    values = neural_fit.fitted(white, n_epochs=400).sample_rows(GRID, slice(None))
+    values = neural_fit.fitted(white, n_steps=400).sample_rows(GRID, slice(None))
     assert np.nanmean(values) > 0.2
 
 

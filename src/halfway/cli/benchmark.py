@@ -70,7 +70,10 @@ def benchmark(
     if neural_process:
         process = yardstick.NeuralProcess.read(neural_process)
         fits["neural process"] = process.reconstruct
-        recoveries["neural process, planned directions"] = yardstick.RecoveryMethod(process.recover)
+        recoveries |= {
+            "neural process, planned directions": yardstick.RecoveryMethod(process.planned),
+            "neural process, random directions": yardstick.RecoveryMethod(process.unplanned, True),
+        }
     library = open_library(lib)
     folder = output or (None if as_json else Path("benchmark"))
     kept = keeping(folder, "measured.jsonl", "benchmark", force=force) if folder else nullcontext()

@@ -122,9 +122,17 @@ def planned_mix(train: Library, n: int, rng: np.random.Generator) -> Sampling | 
 
 def unplanned(train: Library, n: int, rng: np.random.Generator) -> Sampling | None:
     """`halfway.recover` at directions that are drawn."""
-    cells = rng.choice(_measurable(train.grid), n, replace=False)
-    wi, wo = (x.reshape(-1, 3)[cells] for x in train.grid.directions())
+    wi, wo = random_directions(train.grid, n, rng)
     return Sampling(wi, wo, completion(train, wi, wo))
+
+
+def random_directions(
+    grid: Grid, n: int, rng: np.random.Generator
+) -> tuple[Directions, Directions]:
+    """Those of cells within reach, each as likely."""
+    cells = rng.choice(_measurable(grid), n, replace=False)
+    wi, wo = (x.reshape(-1, 3)[cells] for x in grid.directions())
+    return wi, wo
 
 
 def completion(train: Library, wi: Directions, wo: Directions) -> Complete:
