@@ -18,7 +18,7 @@ from halfway.library import open_library
 from halfway.look import flip, shown
 from halfway.tasks import Threads, Work
 from halfway.yardstick import neural_fit
-from halfway.yardstick.benchmark import benchmark
+from halfway.yardstick.benchmark import _reconstructed, _Run, benchmark
 from halfway.yardstick.data import gridded, part, values_of
 from halfway.yardstick.journal import Journal
 from halfway.yardstick.reconstruction import RECONSTRUCTIONS, Linear, LogRelative, Root
@@ -192,6 +192,22 @@ def test_a_network_that_is_dark_does_not_stay_so(monkeypatch):
     white = TabularBrdf(np.full((3, *GRID.shape), 0.3, np.float32), GRID)
     values = neural_fit.fitted(white, n_steps=400).sample_rows(GRID, slice(None))
     assert np.nanmean(values) > 0.2
+
+
+@pytest.mark.parametrize(("own", "settings"), [((4, 4, 4), [4]), ((3, 4, 5), [0])])
+def test_a_method_that_chooses_its_numbers_by_fold_has_one_result(tables, own, settings):
+    """Of all materials; k is 0 where it is not the same in all folds, also where it is by chance one that is asked for."""
+    few = part(tables, tables.names[:3])
+    numbers = iter(own)
+
+    def method(train, test, ks):
+        del train, ks
+        yield next(numbers), values_of(test)
+
+    run = _Run.of(few, Journal.open(None, {}), Work(Threads(1)))
+    on = split("leave-one-out", few.names)
+    results = list(_reconstructed(run, on, {"mine": method}, [3, 5]))
+    assert [(r.setting, r.n_materials) for r in results] == [(k, 3) for k in settings]
 
 
 # A run that is stopped

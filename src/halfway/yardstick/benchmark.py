@@ -4,7 +4,7 @@ import time
 from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
 from importlib.metadata import version
-from itertools import product
+from itertools import chain, product
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -173,9 +173,10 @@ def _reconstructed(
     for name, method in methods.items():
         rows: dict[int, list[Scores]] = {}
         fold, unit = partial(_fold, run, method, ks), ("reconstruct", on.name, name)
-        for found in run.journal.run(fold, on.folds, unit, run.work, label=f"{on.name}: {name}"):
-            for k, scores in found:
-                rows.setdefault(k if k in ks or len(on.folds) == 1 else 0, []).extend(scores)
+        found = run.journal.run(fold, on.folds, unit, run.work, label=f"{on.name}: {name}")
+        own = {k for each in found for k, _ in each if len(each) == 1}  # numbers of its own choice
+        for k, scores in chain.from_iterable(found):
+            rows.setdefault(k if len(own) < 2 else 0, []).extend(scores)
         for k, scores in rows.items():
             yield Result.of("reconstruct", on.name, name, k, [scores])
 
