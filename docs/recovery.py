@@ -1,6 +1,6 @@
 """What docs/recovery.md says of recovering, measured on a library of MERL's materials, some of which are left out as the test.
 
-python docs/recovery.py merl_nbrdf.zip --test names.txt [--grid 90x30x36] [--draws 20]
+python docs/recovery.py merl_nbrdf.zip --test names.txt [--grid 90x30x36] [--draws 20] [--splits 12]
 """
 
 import argparse
@@ -34,6 +34,8 @@ class Errors(NamedTuple):
     """Means over the cells, channels and materials of the test."""
 
     by_cell: float
+    within: float
+    """By cell, of those with both directions within 80 degrees of the normal."""
     by_solid_angle: float
     covered: float
 
@@ -49,6 +51,7 @@ class Bench:
         self.lit = np.flatnonzero(library.grid.mask().ravel())[::STEP]
         cells = quadrature.comparison_cells(library.grid)
         self.solid_angle = cells.solid_angle.ravel()[self.lit]
+        self.near = ~np.broadcast_to(cells.grazing, library.grid.shape).ravel()[self.lit]
         self.cosines = tuple(c[self.lit] for c in cosines_at(library.grid, whole))
         known, truth = (each.columns(whole)[..., self.lit] for each in (self.train, self.test))
         self.known = {
@@ -89,7 +92,8 @@ class Bench:
         apart = np.abs(self.seen(unmapped(recovered, self.cosines)) - self.seen(truth)).mean(axis=0)
         inside = np.abs(recovered - mapped(truth, self.cosines)) <= half
         by_solid_angle = apart @ self.solid_angle / self.solid_angle.sum()
-        return [float(apart.mean()), float(by_solid_angle), float(inside.mean())]
+        means = apart.mean(), apart[self.near].mean(), by_solid_angle, inside.mean()
+        return [float(mean) for mean in means]
 
 
 def main() -> None:
@@ -99,6 +103,7 @@ def main() -> None:
     parser.add_argument("--test", required=True, help="a file of names, one a line")
     parser.add_argument("--grid", default="", help="that materials are sampled on")
     parser.add_argument("--draws", type=int, default=20, help="of random directions")
+    parser.add_argument("--splits", type=int, default=12, help="drawn, for what intervals hold")
     options = parser.parse_args()
     given, grid = open_library(options.library), parse_grid(options.grid)
     if grid:
@@ -112,11 +117,12 @@ def main() -> None:
     print_rivals(bench)
     print_reaches(bench)
     print_channels(bench, {n: (found.wi, found.wo) for n, found in planned.items()})
+    print_splits(given, len(bench.test), options.splits)
 
 
 def print_planned(bench: Bench, planned: dict[int, Pairs]) -> None:
     """The completion from planned directions."""
-    print("planned, within 80 degrees: by cell, by solid angle, covered")
+    print("planned, within 80 degrees: by cell, of those within 80, by solid angle, covered")
     for n, pairs in planned.items():
         print(f"  {n:3} {_line(bench.errors(pairs))}", flush=True)
 
@@ -176,6 +182,20 @@ def print_random(bench: Bench, n_draws: int) -> None:
         )
 
 
+def print_splits(library: Library, n_test: int, n_splits: int) -> None:
+    """What intervals hold where the materials that are left out are drawn: mean and standard deviation over draws."""
+    rng = np.random.default_rng(0)
+    tests = [rng.permutation(library.names)[:n_test].tolist() for _ in range(n_splits)]
+    benches = [Bench(library, test) for test in tests]
+    print(f"{n_splits} splits that are drawn: by cell, covered (standard deviation)")
+    for n in NUMBERS:
+        plans = [plan(bench.train, n) for bench in benches]
+        errors = [bench.errors((p.wi, p.wo)) for bench, p in zip(benches, plans, strict=True)]
+        covered = [each.covered for each in errors]
+        by_cell = np.mean([each.by_cell for each in errors])
+        print(f"  {n:3} {by_cell:.4f}  {np.mean(covered):.3f} ({np.std(covered):.3f})", flush=True)
+
+
 def _chosen(bench: Bench, choose: Callable[[np.ndarray, int], list[int]], n: int) -> Pairs:
     wi, wo = spread_pairs(1500, isotropic=True)
     near = np.minimum(wi[:, 2], wo[:, 2]) > np.cos(np.radians(80))
@@ -212,7 +232,7 @@ def _conditioned(rows: np.ndarray, n: int, n_sweeps: int = 3) -> list[int]:
 
 
 def _line(errors: Errors) -> str:
-    return f"{errors.by_cell:.4f} {errors.by_solid_angle:.4f} {errors.covered:.3f}"
+    return "{:.4f} {:.4f} {:.4f} {:.3f}".format(*errors)
 
 
 if __name__ == "__main__":

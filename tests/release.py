@@ -32,6 +32,8 @@ READ_ONLY = (
     "halfway render elsewhere.binary -o elsewhere.png --size 32 --spp 2",
 )
 """For an installation that may not be written, of a user without a home."""
+YARDSTICK = "halfway benchmark --quick -o yardstick"
+"""Two minutes on two cores, of a package that has only what it asks for."""
 SMALLER = {"halfway render": "--size 32 --spp 2"}
 
 
@@ -48,6 +50,7 @@ def main() -> None:
         step("version", lambda: check_version(env, wheel))
         for line in tutorial():
             step(line, lambda line=line: run(line, env, empty))
+        step(YARDSTICK, lambda: run(YARDSTICK, env, empty))
         step("halfway view", lambda: view(env, empty))
         for line in READ_ONLY:
             step(f"read-only: {line}", lambda line=line: run_read_only(line, env, empty))

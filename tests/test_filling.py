@@ -2,7 +2,7 @@
 
 import pytest
 
-from halfway.batch import Manifest, filling, verify
+from halfway.batch import Manifest, filling, keeping, verify
 from halfway.errors import OutputError
 
 
@@ -85,3 +85,34 @@ def test_a_run_that_was_stopped_while_files_were_moved_is_gone_on_from(tmp_path)
     fill(tmp_path, {"b.txt": "whole"})
     assert contents(tmp_path).keys() == {"b.txt", "manifest.json"}
     assert verify(tmp_path).ok
+
+
+def test_what_is_noted_is_there_for_the_next_until_the_folder_is_filled(tmp_path):
+    folder = tmp_path / "out"
+    with keeping(folder, "notes.jsonl", "hand") as path:
+        path.write_text("one")  # and here it is stopped
+    with keeping(folder, "notes.jsonl", "hand") as path:
+        assert path.read_text() == "one"
+    with filling(folder, "hand") as scratch:
+        (scratch / "page.html").write_text("whole")
+    assert sorted(p.name for p in folder.iterdir()) == ["manifest.json", "page.html"]
+
+
+def test_notes_are_forgotten_by_force(tmp_path):
+    folder = tmp_path / "out"
+    with keeping(folder, "notes.jsonl", "hand") as path:
+        path.write_text("one")
+    with keeping(folder, "notes.jsonl", "hand", force=True) as path:
+        assert not path.exists()
+
+
+def test_a_block_that_notes_nothing_leaves_nothing(tmp_path):
+    with pytest.raises(ValueError, match="no"), keeping(tmp_path / "out", "notes", "hand"):
+        raise ValueError("no")
+    assert not (tmp_path / "out").exists()
+
+
+def test_notes_in_the_folder_of_another_are_refused(tmp_path):
+    (tmp_path / "theirs.txt").write_text("x")
+    with pytest.raises(OutputError, match=r"theirs\.txt"), keeping(tmp_path, "notes", "hand"):
+        pass

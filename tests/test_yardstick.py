@@ -9,14 +9,18 @@ from numpy.testing import assert_allclose
 from skimage.metrics import structural_similarity
 
 from halfway import yardstick
-from halfway.brdf import TabularBrdf, difference
+from halfway.brdf import TabularBrdf, difference, tabulate
 from halfway.colour import to_srgb
 from halfway.errors import FormatError, HalfwayError
+from halfway.formats import NeuralBrdf
 from halfway.halfdiff import Grid
 from halfway.library import open_library
 from halfway.look import flip, shown
-from halfway.yardstick.benchmark import benchmark
+from halfway.tasks import Threads, Work
+from halfway.yardstick import neural_fit
+from halfway.yardstick.benchmark import _reconstructed, _Run, benchmark
 from halfway.yardstick.data import gridded, part, values_of
+from halfway.yardstick.journal import Journal
 from halfway.yardstick.reconstruction import RECONSTRUCTIONS, Linear, LogRelative, Root
 from halfway.yardstick.results import Result
 from halfway.yardstick.scores import MEASURES, Judge, ssim
@@ -64,7 +68,7 @@ def test_ssim_is_that_of_scikit_image():
 
 
 def test_a_table_is_no_different_from_itself(tables):
-    scores = Judge.of(GRID).scores(tables.row(0), tables.row(0))
+    scores = Judge.of(GRID).knowing(tables.row(0)).scores(tables.row(0))
     assert set(scores) == set(MEASURES)
     for name, value in scores.items():
         best = {"psnr": 99.0, "ssim": 1.0}.get(name.partition(".")[0], 0.0)
@@ -72,13 +76,14 @@ def test_a_table_is_no_different_from_itself(tables):
 
 
 def test_what_is_negative_counts_as_0(tables):
-    judge, row = Judge.of(GRID), tables.row(0)
-    assert judge.scores(row, -row) == judge.scores(row, 0 * row)
+    known, row = Judge.of(GRID).knowing(tables.row(0)), tables.row(0)
+    assert known.scores(-row) == known.scores(0 * row)
 
 
 def test_the_table_measures_are_those_of_the_package(tables):
     a, b = tables.brdf(tables.names[0]), tables.brdf(tables.names[1])
-    scores = Judge.of(GRID).scores(*(x.values.reshape(3, -1) for x in (a, b)))
+    truth, estimate = (x.values.reshape(3, -1) for x in (a, b))
+    scores = Judge.of(GRID).knowing(truth).scores(estimate)
     assert scores["log-relative"] == difference(a, b, "log-relative").below
 
 
@@ -139,7 +144,7 @@ def test_a_method_reconstructs_what_it_learned(tables, name):
     few = part(tables, tables.names[:3])
     k, values = list(RECONSTRUCTIONS[name](tables, few, [9]))[-1]
     assert k in (1, 9)
-    scores = [Judge.of(GRID).scores(*each) for each in zip(*(np.moveaxis(x, 1, 0) for x in (values_of(few), values)), strict=True)]  # fmt: skip
+    scores = [Judge.of(GRID).knowing(truth).scores(found) for truth, found in zip(*(np.moveaxis(x, 1, 0) for x in (values_of(few), values)), strict=True)]  # fmt: skip
     assert max(each["mean-log"] for each in scores) < 0.01
 
 
@@ -148,8 +153,8 @@ def test_a_method_recovers_what_it_learned_from_many_samples(tables, name):
     sampling = RECOVERIES[name].method(tables, 12, np.random.default_rng(0))
     material = tables.brdf(tables.names[2])
     recovered = sampling.complete(material.eval(sampling.wi, sampling.wo))
-    scores = Judge.of(GRID).scores(tables.row(2), recovered)
-    nothing = Judge.of(GRID).scores(tables.row(2), 0 * tables.row(2))
+    known = Judge.of(GRID).knowing(tables.row(2))
+    scores, nothing = known.scores(recovered), known.scores(0 * tables.row(2))
     assert scores["mean-log"] < nothing["mean-log"] / 4
 
 
@@ -159,6 +164,93 @@ def test_results_of_draws_have_an_interval():
     assert (result.scores, result.n_materials, result.n_draws) == ({"log": 2.0}, 2, 3)
     assert result.low["log"] == pytest.approx(1.05)
     assert result.high["log"] == pytest.approx(2.95)
+
+
+def test_a_network_fits_what_a_network_made():
+    """Five times nearer than the best constant, in the loss that it lowers: where that is not lowered, it stays there."""
+    rng = np.random.default_rng(4)
+    layers = [rng.normal(size=shape, scale=0.4).astype(np.float32) for shape in neural_fit.SHAPES]
+    grid = Grid.merl(12, 6, 8)
+    truth = tabulate(NeuralBrdf(*layers), grid)
+    known = Judge.of(grid).knowing(truth.values.reshape(3, -1))
+    network = neural_fit.fitted(truth, n_steps=4000)
+    constant = np.nanmedian(truth.values.reshape(3, -1), axis=1, keepdims=True)
+    found = known.scores(network.sample_rows(grid, slice(None)).reshape(3, -1))
+    assert found["mean-log"] < known.scores(constant + 0 * known.truth)["mean-log"] / 5
+
+
+def test_a_network_that_is_dark_does_not_stay_so(monkeypatch):
+    """It begins below 0 in every channel, where max(0, exp(y) - 1) has no slope."""
+    begin = neural_fit._start
+
+    def darkly(rng, f):
+        layers = begin(rng, f)
+        layers[-1][:] = -1
+        return layers
+
+    monkeypatch.setattr(neural_fit, "_start", darkly)
+    white = TabularBrdf(np.full((3, *GRID.shape), 0.3, np.float32), GRID)
+    values = neural_fit.fitted(white, n_steps=400).sample_rows(GRID, slice(None))
+    assert np.nanmean(values) > 0.2
+
+
+@pytest.mark.parametrize(("own", "settings"), [((4, 4, 4), [4]), ((3, 4, 5), [0])])
+def test_a_method_that_chooses_its_numbers_by_fold_has_one_result(tables, own, settings):
+    """Of all materials; k is 0 where it is not the same in all folds, also where it is by chance one that is asked for."""
+    few = part(tables, tables.names[:3])
+    numbers = iter(own)
+
+    def method(train, test, ks):
+        del train, ks
+        yield next(numbers), values_of(test)
+
+    run = _Run.of(few, Journal.open(None, {}), Work(Threads(1)))
+    on = split("leave-one-out", few.names)
+    results = list(_reconstructed(run, on, {"mine": method}, [3, 5]))
+    assert [(r.setting, r.n_materials) for r in results] == [(k, 3) for k in settings]
+
+
+# A run that is stopped
+
+
+def twice(journal, stop_at=None):
+    measured = []
+
+    def measure(x):
+        if x == stop_at:
+            raise KeyboardInterrupt
+        measured.append(x)
+        return [2 * x]
+
+    return journal.run(measure, [0, 1, 2], ("t", 5), Work(Threads(1)), label=""), measured
+
+
+def test_what_was_measured_is_not_measured_again(tmp_path):
+    path = tmp_path / "measured.jsonl"
+    with pytest.raises(KeyboardInterrupt):
+        twice(Journal.open(path, {"seed": 0}), stop_at=2)
+    n_known = len(path.read_text().splitlines()) - 1
+    results, measured = twice(Journal.open(path, {"seed": 0}))
+    assert results == [[0], [2], [4]]
+    assert measured == [0, 1, 2][n_known:]
+
+
+def test_a_line_that_was_cut_off_is_measured_again(tmp_path):
+    path = tmp_path / "measured.jsonl"
+    twice(Journal.open(path, {"seed": 0}))
+    path.write_text(path.read_text()[:-4])
+    for again in ([2], []):
+        results, measured = twice(Journal.open(path, {"seed": 0}))
+        assert (results, measured) == ([[0], [2], [4]], again)
+
+
+def test_what_a_run_with_another_seed_measured_is_refused(tmp_path):
+    path = tmp_path / "measured.jsonl"
+    twice(Journal.open(path, {"seed": 0}))
+    with pytest.raises(
+        HalfwayError, match=r"measured\.jsonl .* of another seed: expected the same"
+    ):
+        Journal.open(path, {"seed": 1})
 
 
 # The whole
@@ -220,4 +312,7 @@ def test_the_published_neural_process_decodes_its_own_materials(shared_data):
     for i, name in enumerate(few.names):
         z = np.load(latent / f"{name}_latentVector.npy")[0].ravel().astype(np.float32)
         table = TabularBrdf(networks.table(z, GRID).reshape(3, *GRID.shape), GRID)
-        assert Judge.of(GRID).scores(few.row(i), table.values.reshape(3, -1))["mean-log"] < 0.02
+        assert (
+            Judge.of(GRID).knowing(few.row(i)).scores(table.values.reshape(3, -1))["mean-log"]
+            < 0.02
+        )

@@ -1,7 +1,16 @@
 """Folders of many files: written so that nothing is lost when a run is killed, and read again to see that all is there."""
 
 from .batch import Batch
-from .filling import filling, require_own
+from .filling import filling, keeping, require_own
 from .manifest import Checksum, Manifest, Verdict, verify
 
-__all__ = ["Batch", "Checksum", "Manifest", "Verdict", "filling", "require_own", "verify"]
+__all__ = [
+    "Batch",
+    "Checksum",
+    "Manifest",
+    "Verdict",
+    "filling",
+    "keeping",
+    "require_own",
+    "verify",
+]

@@ -5,7 +5,7 @@ not written again. Anything else is somebody else's, and such a folder is refuse
 """
 
 from collections.abc import Generator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from ..errors import FormatError, OutputError
@@ -36,6 +36,31 @@ def filling(folder: Location, by: str, *, force: bool = False) -> Generator[Path
         yield scratch
         with explaining(folder):
             _move(scratch, folder, by)
+
+
+@contextmanager
+def keeping(folder: Path, name: str, by: str, *, force: bool = False) -> Generator[Path]:
+    """A file in ``folder`` for the block, which takes long, to note in what it has; it goes when `filling` has filled the folder.
+
+    What an earlier block that was stopped noted is still there, unless ``force`` is given. Parameters and errors are those of `filling`.
+    """
+    if not force:
+        require_own(folder, by)
+    own, path = _own(folder, by), folder / name
+    with explaining(folder):
+        folder.mkdir(parents=True, exist_ok=True)
+        if force:
+            path.unlink(missing_ok=True)
+        names = {name} if own is None else own.names | {name}
+        Manifest({"by": by}, frozenset(names)).write_journal(folder)
+    try:
+        yield path
+    except BaseException:
+        if own is None and not path.exists():  # nothing came of it
+            (folder / JOURNAL).unlink(missing_ok=True)
+            with suppress(OSError):
+                folder.rmdir()
+        raise
 
 
 def require_own(folder: Location, by: str) -> None:

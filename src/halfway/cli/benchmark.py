@@ -61,19 +61,23 @@ def benchmark(
     from contextlib import nullcontext
 
     from halfway import yardstick
-    from halfway.batch import filling
+    from halfway.batch import filling, keeping
     from halfway.library import open_library
 
     from .arguments import parse_grid
 
-    reconstructions, recoveries = dict(yardstick.RECONSTRUCTIONS), dict(yardstick.RECOVERIES)
+    recoveries, fits = dict(yardstick.RECOVERIES), {}
     if neural_process:
         process = yardstick.NeuralProcess.read(neural_process)
-        reconstructions["neural process"] = process.reconstruct
-        recoveries["neural process, planned directions"] = yardstick.RecoveryMethod(process.recover)
+        fits["neural process"] = process.reconstruct
+        recoveries |= {
+            "neural process, planned directions": yardstick.RecoveryMethod(process.planned),
+            "neural process, random directions": yardstick.RecoveryMethod(process.unplanned, True),
+        }
     library = open_library(lib)
     folder = output or (None if as_json else Path("benchmark"))
-    with filling(folder, "benchmark", force=force) if folder else nullcontext() as scratch:
+    kept = keeping(folder, "measured.jsonl", "benchmark", force=force) if folder else nullcontext()
+    with kept as journal:
         measured = yardstick.benchmark(
             library,
             quick=quick,
@@ -81,11 +85,13 @@ def benchmark(
             splits=split,
             seed=seed,
             answers=answers,
-            reconstructions=reconstructions,
             recoveries=recoveries,
+            fits=fits,
+            journal=journal,
             work=work(),
         )
-        if scratch:
+    if folder:
+        with filling(folder, "benchmark", force=force) as scratch:
             yardstick.write_page(scratch, measured)
     if as_json:
         print(json.dumps(measured.to_json(), indent=1))

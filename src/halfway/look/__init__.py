@@ -3,7 +3,7 @@
 from .appearance import appearance, ciede2000_difference, cielab_difference, shown
 from .flip import flip
 from .images import Looks, most_different
-from .lit_sphere import JUDGING_SCENE, PACING_SCENE, SphereOperator, SphereScene
+from .lit_sphere import JUDGING_SCENE, PACING_SCENE, FilledSphere, SphereOperator, SphereScene
 from .portraits import N_SPHERES, portrait, recipes_png, table_png, to_png
 from .samples import CellSamples, body_colours, body_mask
 from .small_tables import small_grid
@@ -13,6 +13,7 @@ __all__ = [
     "N_SPHERES",
     "PACING_SCENE",
     "CellSamples",
+    "FilledSphere",
     "Looks",
     "SphereOperator",
     "SphereScene",

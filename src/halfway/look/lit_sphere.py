@@ -23,7 +23,7 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
-from jaxtyping import Float32, Float64, Int
+from jaxtyping import Bool, Float32, Float64, Int
 
 from .._types import Directions, Mask
 from ..halfdiff import Grid, turn
@@ -164,7 +164,7 @@ class SphereOperator(NamedTuple):
 
 
 class FilledSphere(NamedTuple):
-    """What `SphereOperator` does, for tables that have a value in every cell: lookups and sums are one matrix."""
+    """What `SphereOperator` does, for tables that all have values in the same cells: lookups and sums are one matrix."""
 
     cells: Indices
     direct: Sparse
@@ -175,9 +175,13 @@ class FilledSphere(NamedTuple):
     """(n_pixels, n_nodes x 4)."""
 
     @classmethod
-    def of(cls, scene: SphereScene, grid: Grid, *, step: int = 1) -> "FilledSphere":
-        """Of every so many of the scene's pixels."""
+    def of(
+        cls, scene: SphereScene, grid: Grid, *, step: int = 1, measured: Mask | None = None
+    ) -> "FilledSphere":
+        """Of every so many of the scene's pixels; of tables that have values in the cells that are measured, or in all."""
         cells, lookup, lights, moments, sky = SphereOperator.of(scene, grid)
+        if measured is not None:
+            lookup = _of_measured(lookup, measured.ravel()[cells])
         return cls(cells, lights[::step] @ lookup, moments @ lookup, sky[::step])
 
     def pictures(self, tables: Float32[np.ndarray, "3 k p"]) -> Float32[np.ndarray, "k n_pixels 3"]:
@@ -185,6 +189,14 @@ class FilledSphere(NamedTuple):
         samples = tables[..., self.cells].reshape(-1, len(self.cells)).T
         seen = self.direct @ samples + self.sky @ (self.moments @ samples)
         return np.ascontiguousarray(seen.T.reshape(3, -1, len(seen)).transpose(1, 2, 0))
+
+
+def _of_measured(lookup: Sparse, measured: Bool[np.ndarray, " n_touched"]) -> Sparse:
+    """The weights of measured corners, renormalised."""
+    kept = lookup.multiply(measured[None].astype(np.float32)).tocsr()
+    total = kept.sum(axis=1)
+    scale = np.divide(1, total, out=np.zeros_like(total), where=total > 0)
+    return kept.multiply(scale[:, None]).tocsr()
 
 
 def _lookup(grid: Grid, wi: Directions, wo: Directions) -> tuple[Indices, Sparse]:

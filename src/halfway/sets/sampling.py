@@ -126,7 +126,8 @@ def _taken(
     taken: list[Candidate] = []
     n_tried = 0
     while len(taken) < n:
-        if n_tried >= MOST_TRIES * n:
+        # A set fills up: if it takes more tries than that now, it does so all the more later.
+        if n_tried >= MOST_TRIES * min(n, len(taken) + N_AT_ONCE):
             raise SpaceError(
                 f"only {len(taken):,} of {n:,} materials look at least {least:g} different from each other after {n_tried:,} "
                 "tries: expected room for all. Take fewer, let them be nearer with --least, or permute their channels."

@@ -3,7 +3,10 @@
 import time
 from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
+from importlib.metadata import version
+from itertools import chain, product
 from pathlib import Path
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -13,11 +16,13 @@ from ..library import Library, ProceduralLibrary
 from ..models import builtin
 from ..recipes import Blend
 from ..tasks import HERE, Work
-from .data import Values, gridded, part, values_of
+from .data import gridded, part
+from .journal import Journal
+from .neural_fit import neural_fits
 from .people import agreements
 from .reconstruction import RECONSTRUCTIONS, Reconstruction, beside, fitted
 from .results import Benchmark, Result
-from .scores import Judge, Scores
+from .scores import Judge, Known, Scores
 from .sparse import RECOVERIES, RecoveryMethod
 from .splits import Fold, Split, split
 
@@ -31,6 +36,8 @@ N_DRAWS, QUICK_N_DRAWS = 20, 3
 PUBLISHED_FITS = {"ABC fit": ("merl-abc", 9), "SGD fit": ("merl-sgd", 33)}
 """Published fits by method: the set, and its numbers per material."""
 MODEL_FITS = {"GGX fit (glTF)": "gltf", "OpenPBR fit": "openpbr"}
+NETWORK_FIT = "NBRDF fit"
+NO_FITS: Mapping[str, Reconstruction] = {}
 TASKS = ("reconstruct", "recover", "halfway", "triplets")
 SPLITS = ("liu2023", "kind", "leave-one-out")
 
@@ -45,6 +52,8 @@ def benchmark(
     answers: Path | None = None,
     reconstructions: Mapping[str, Reconstruction] = RECONSTRUCTIONS,
     recoveries: Mapping[str, RecoveryMethod] = RECOVERIES,
+    fits: Mapping[str, Reconstruction] = NO_FITS,
+    journal: Path | None = None,
     work: Work = HERE,
 ) -> Benchmark:
     """Every task, measured.
@@ -61,25 +70,29 @@ def benchmark(
         Triplets that people answered (`halfway.yardstick.people`).
     reconstructions, recoveries
         The methods by name.
+    fits
+        Reconstructions that learn from no training material, beside those that are here: on the first split alone.
+    journal : path, optional
+        A file that notes what is measured, so that a run that was stopped goes on from there; methods count by their names.
 
     Raises
     ------
     HalfwayError
-        When the library does not have the materials that a split or the answers name.
+        When the library does not have the materials that a split or the answers name, or the journal is of another run.
     """
     start = time.monotonic()
     on = grid or (QUICK_GRID if quick else GRID)
-    tables, judge = gridded(library, on, work=work), Judge.of(on)
     chosen = [split(name, library.names) for name in splits or (SPLITS[:1] if quick else SPLITS)]
-    given, skipped = _without_learning(library, quick, work)
-    results: list[Result] = []
-    for i, each in enumerate(chosen):
-        methods = dict(reconstructions) | (given if i == 0 else {})
-        ks = QUICK_KS if quick else KS
-        results += _reconstructed(tables, each, methods, ks, judge, work)
-    draws = QUICK_N_DRAWS if quick else N_DRAWS
-    ns = QUICK_NS if quick else NS
-    results += _recovered(tables, chosen[0], recoveries, ns, draws, seed, judge, work)
+    kept = Journal.open(journal, _identity(library, on, quick, seed))
+    run = _Run.of(gridded(library, on, work=work), kept, work)
+    others, skipped = _fits(library, quick, work)
+    ks, ns, n_draws = (QUICK_KS, QUICK_NS, QUICK_N_DRAWS) if quick else (KS, NS, N_DRAWS)
+    draws = [(seed, i) for i in range(n_draws)]
+    first, *rest = chosen
+    results = [*_reconstructed(run, first, {**reconstructions, **others, **fits}, ks)]
+    results += _recovered(run, first, recoveries, ns, draws)
+    for each in rest:
+        results += _reconstructed(run, each, reconstructions, ks)
     results += _halfway(on, work)
     if answers:
         results += _triplets(answers, library, work)
@@ -98,7 +111,37 @@ def benchmark(
     )
 
 
-def _without_learning(
+class _Run(NamedTuple):
+    """What all tasks share."""
+
+    tables: Library
+    known: Mapping[str, Known]
+    journal: Journal
+    work: Work
+
+    @classmethod
+    def of(cls, tables: Library, journal: Journal, work: Work) -> "_Run":
+        judge = Judge.of(tables.grid)
+        known = {name: judge.knowing(tables.row(i)) for i, name in enumerate(tables.names)}
+        return cls(tables, known, journal, work)
+
+    def parts(self, fold: Fold) -> tuple[Library, Library]:
+        """What is learned from, and what is judged."""
+        return part(self.tables, fold.train), part(self.tables, fold.test)
+
+
+def _identity(library: Library, grid: Grid, quick: bool, seed: int) -> dict[str, Any]:
+    """What results must have in common to be of one run."""
+    return {
+        "version": version("halfway"),
+        "library": library.checksum,
+        "grid": list(grid.shape),
+        "quick": quick,
+        "seed": seed,
+    }
+
+
+def _fits(
     library: Library, quick: bool, work: Work
 ) -> tuple[dict[str, Reconstruction], dict[str, str]]:
     """Fits that learn from no other material, and those that are not judged, with the reason."""
@@ -117,73 +160,69 @@ def _without_learning(
             skipped[name] = "takes too long for the quick benchmark"
         else:
             methods[name] = fitted(model, work)
+    if quick:
+        skipped[NETWORK_FIT] = "takes too long for the quick benchmark"
+    else:
+        methods[NETWORK_FIT] = neural_fits(work)
     return methods, skipped
 
 
 def _reconstructed(
-    tables: Library,
-    on: Split,
-    methods: Mapping[str, Reconstruction],
-    ks: Sequence[int],
-    judge: Judge,
-    work: Work,
+    run: _Run, on: Split, methods: Mapping[str, Reconstruction], ks: Sequence[int]
 ) -> Iterator[Result]:
     for name, method in methods.items():
         rows: dict[int, list[Scores]] = {}
-        run = partial(_fold, tables, method, ks, judge)
-        for per_setting in work.run(run, on.folds, label=f"{on.name}: {name}"):
-            for k, scores in per_setting:
-                rows.setdefault(k if k in ks or len(on.folds) == 1 else 0, []).extend(scores)
+        fold, unit = partial(_fold, run, method, ks), ("reconstruct", on.name, name)
+        found = run.journal.run(fold, on.folds, unit, run.work, label=f"{on.name}: {name}")
+        own = {k for each in found for k, _ in each if len(each) == 1}  # numbers of its own choice
+        for k, scores in chain.from_iterable(found):
+            rows.setdefault(k if len(own) < 2 else 0, []).extend(scores)
         for k, scores in rows.items():
             yield Result.of("reconstruct", on.name, name, k, [scores])
 
 
 def _fold(
-    tables: Library, method: Reconstruction, ks: Sequence[int], judge: Judge, fold: Fold
+    run: _Run, method: Reconstruction, ks: Sequence[int], fold: Fold
 ) -> list[tuple[int, list[Scores]]]:
-    train, test = part(tables, fold.train), part(tables, fold.test)
-    truth = values_of(test)
-    return [(k, _scores(judge, truth, values)) for k, values in method(train, test, ks)]
-
-
-def _scores(judge: Judge, truth: Values, values: Values) -> list[Scores]:
-    return [judge.scores(truth[:, i], values[:, i]) for i in range(truth.shape[1])]
+    train, test = run.parts(fold)
+    return [
+        (k, [run.known[name].scores(values[:, i]) for i, name in enumerate(test.names)])
+        for k, values in method(train, test, ks)
+    ]
 
 
 def _recovered(
-    tables: Library,
+    run: _Run,
     on: Split,
     methods: Mapping[str, RecoveryMethod],
     ns: Sequence[int],
-    n_draws: int,
-    seed: int,
-    judge: Judge,
-    work: Work,
+    draws: Sequence[tuple[int, int]],
 ) -> Iterator[Result]:
     """On the first fold of a split."""
-    fold = on.folds[0]
-    train, test = part(tables, fold.train), part(tables, fold.test)
-    for name, method in methods.items():
-        for n in ns:
-            draw = partial(_draw, train, test, method, n, judge, seed)
-            label = f"{n} samples: {name}"
-            drawn = work.run(draw, range(n_draws if method.is_random else 1), label=label)
-            draws = [rows for rows in drawn if rows]
-            if draws:
-                yield Result.of("recover", on.name, name, n, draws)
+    train, test = run.parts(on.folds[0])
+    for (name, method), n in product(methods.items(), ns):
+        draw, unit = partial(_draw, run, train, test, method, n), ("recover", on.name, name, n)
+        tasks, label = draws if method.is_random else draws[:1], f"{n} samples: {name}"
+        drawn = run.journal.run(draw, tasks, unit, run.work, label=label)
+        if rows := [each for each in drawn if each]:
+            yield Result.of("recover", on.name, name, n, rows)
 
 
 def _draw(
-    train: Library, test: Library, method: RecoveryMethod, n: int, judge: Judge, seed: int, i: int
+    run: _Run,
+    train: Library,
+    test: Library,
+    method: RecoveryMethod,
+    n: int,
+    draw: tuple[int, int],
 ) -> list[Scores]:
+    seed, i = draw
     sampling = method.method(train, n, np.random.default_rng([seed, n, i]))
     if sampling is None:
         return []
-    truth = values_of(test)
-    values = [test.brdf(name).eval(sampling.wi, sampling.wo) for name in test.names]
+    values = {name: test.brdf(name).eval(sampling.wi, sampling.wo) for name in test.names}
     return [
-        judge.scores(truth[:, j], np.asarray(sampling.complete(each)))
-        for j, each in enumerate(values)
+        run.known[name].scores(np.asarray(sampling.complete(each))) for name, each in values.items()
     ]
 
 

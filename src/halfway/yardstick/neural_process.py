@@ -26,7 +26,7 @@ from ..halfdiff import Grid, to_half_diff
 from ..library import Library
 from ..recovery import plan
 from .data import Values, values_of
-from .sparse import Sampling
+from .sparse import Sampling, random_directions
 
 N_NUMBERS = 7
 SCALE = 0.15
@@ -119,15 +119,21 @@ class NeuralProcess:
         tables = [self.table(self.encode(x, f.T), grid) for f in values.swapaxes(0, 1)]
         yield N_NUMBERS, np.stack(tables, axis=1)
 
-    def recover(self, train: Library, n: int, rng: np.random.Generator) -> Sampling | None:
+    def planned(self, train: Library, n: int, rng: np.random.Generator) -> Sampling | None:
         """As a method of `recover`: the table of what the encoder makes of n samples, at the directions of `halfway.plan`."""
         del rng
         chosen = plan(train, n)
-        wi, wo = chosen.wi, chosen.wo
+        return self._sampling(train.grid, chosen.wi, chosen.wo)
+
+    def unplanned(self, train: Library, n: int, rng: np.random.Generator) -> Sampling | None:
+        """The same at directions that are drawn, as those were on which it learned."""
+        return self._sampling(train.grid, *random_directions(train.grid, n, rng))
+
+    def _sampling(self, grid: Grid, wi: Directions, wo: Directions) -> Sampling:
+        x = _inputs_at(wi, wo)
 
         def complete(values: Float64[np.ndarray, "n 3"]) -> Float32[np.ndarray, "3 p"]:
-            z = self.encode(_inputs_at(wi, wo), values.astype(np.float32))
-            return self.table(z, train.grid)
+            return self.table(self.encode(x, values.astype(np.float32)), grid)
 
         return Sampling(wi, wo, complete)
 

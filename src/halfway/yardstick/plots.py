@@ -16,21 +16,22 @@ def curves(results: Sequence[Result], measures: Sequence[str], setting: str) -> 
     """A picture as an address that holds it: one plot for each measure, a line for each method."""
     import matplotlib as mpl
     from matplotlib.figure import Figure
-    from matplotlib.ticker import StrMethodFormatter
+    from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 
     with mpl.rc_context(figures.STYLE | {"svg.fonttype": "none"}):
         figure = Figure(figsize=(10, 4.6), layout="constrained")
         axes = figure.subplots(1, len(measures), squeeze=False)[0]
         for ax, measure in zip(axes, measures, strict=True):
             _draw(ax, results, measure)
-            ax.set(xlabel=setting, xscale="log", title=MEASURES[measure].label)
+            ax.set(xlabel=setting, xscale="log", title=MEASURES[measure].label.partition(",")[0])
             settings = sorted(_shared(results))
             ax.set_xticks(settings, [str(x) for x in settings], fontsize=8)
             ax.minorticks_off()
             if not MEASURES[measure].larger_is_better:
                 ax.set_yscale("log")
+                ax.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
                 ax.yaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
-                ax.yaxis.set_minor_formatter(StrMethodFormatter("{x:g}"))
+                ax.yaxis.set_minor_formatter(NullFormatter())
         handles, labels = axes[0].get_legend_handles_labels()
         figure.legend(handles, labels, loc="outside lower center", ncols=3, fontsize=9)
         file = io.BytesIO()
@@ -45,11 +46,15 @@ def _shared(results: Sequence[Result]) -> set[int]:
 
 
 def _draw(ax: Any, results: Sequence[Result], measure: str) -> None:
+    from matplotlib import colormaps
+
+    palette = colormaps["tab20"]
     methods = dict.fromkeys(result.method for result in results)
     for mark, (i, method) in zip(MARKS * 3, enumerate(methods), strict=False):
         points = sorted((r for r in results if r.method == method), key=lambda r: r.setting)
         x, y = [r.setting for r in points], [r.scores[measure] for r in points]
-        (line,) = ax.plot(x, y, marker=mark, ms=5, lw=1.4, label=method, color=f"C{i % 10}")
+        colour = palette(2 * i % 20 + i // 10)  # ten strong ones, then the pale ones of those
+        (line,) = ax.plot(x, y, marker=mark, ms=5, lw=1.4, label=method, color=colour)
         drawn = [r for r in points if r.low]
         if drawn:
             low, high = (

@@ -17,17 +17,16 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from jaxtyping import Float, Float32, Float64
+from jaxtyping import Float, Float64
 
-from .._types import Table
+from .._types import Mask, Table
 from ..brdf import TabularBrdf, difference, metrics, quadrature
 from ..colour import to_srgb
 from ..halfdiff import Grid
 from ..look import (
     JUDGING_SCENE,
     PACING_SCENE,
-    SphereOperator,
-    SphereScene,
+    FilledSphere,
     appearance,
     ciede2000_difference,
     flip,
@@ -36,6 +35,7 @@ from ..look import (
 MOST_PSNR = 99.0
 """Of pictures that are the same."""
 Scores = Mapping[str, float]
+Pixels = Float64[np.ndarray, "n_pixels 3"]
 
 
 class Measure(NamedTuple):
@@ -74,25 +74,48 @@ class Judge:
     """Compares tables on one grid."""
 
     grid: Grid
-    _operators: tuple[SphereOperator, ...]
+    spheres: tuple[FilledSphere, ...]
+    pixels: tuple[Mask, ...]
+    """Of the spheres, in the picture of each scene."""
 
     @classmethod
     def of(cls, grid: Grid) -> "Judge":
-        return cls(grid, tuple(SphereOperator.of(scene, grid) for scene in SCENES))
+        mask = grid.mask()
+        spheres = (FilledSphere.of(scene, grid, measured=mask) for scene in SCENES)
+        return cls(grid, tuple(spheres), tuple(scene.mask() for scene in SCENES))
 
-    def scores(self, truth: Float32[np.ndarray, "3 p"], estimate: np.ndarray) -> Scores:
-        """All `MEASURES` of an estimate; what is negative in it counts as 0."""
-        sound = np.maximum(estimate, 0).astype(np.float32)
-        f, g = (TabularBrdf(x.reshape(3, *self.grid.shape), self.grid) for x in (truth, sound))
-        scores = {"mean-log": _mean_log(self.grid, truth, sound)}
+    def knowing(self, truth: Table) -> "Known":
+        """What estimates of a material are compared with."""
+        return Known(self, truth, self.pictures(truth))
+
+    def pictures(self, table: Table) -> list[Pixels]:
+        """Of the sphere in each scene, linear RGB."""
+        filled = np.nan_to_num(table)[:, None]
+        return [sphere.pictures(filled)[0].astype(np.float64) for sphere in self.spheres]
+
+
+@dataclass(frozen=True, eq=False)
+class Known:
+    """A material whose table is known."""
+
+    judge: Judge
+    truth: Table
+    pictures: list[Pixels]
+
+    def scores(self, estimate: np.ndarray) -> Scores:
+        """All `MEASURES` of an estimate, where the material is measured; what is negative counts as 0."""
+        sound, grid = np.maximum(estimate, 0).astype(np.float32), self.judge.grid
+        sound[np.isnan(self.truth)] = np.nan
+        f, g = (TabularBrdf(x.reshape(3, *grid.shape), grid) for x in (self.truth, sound))
+        scores = {"mean-log": _mean_log(grid, self.truth, sound)}
         scores |= {
             name: difference(f, g, name).below
             for name in TABLE_MEASURES.keys() & metrics.MAPPINGS.keys()
         }
-        for scene, operator in zip(SCENES, self._operators, strict=True):
-            pictures = [operator.picture(x).astype(np.float64) for x in (truth, sound)]
-            seen = _picture_scores(scene, *pictures)
-            scores |= {f"{name}.{scene.name}": value for name, value in seen.items()}
+        pixels, pictures = self.judge.pixels, self.judge.pictures(sound)
+        for scene, mask, *pair in zip(SCENES, pixels, self.pictures, pictures, strict=True):
+            of_scene = _picture_scores(mask, *pair)
+            scores |= {f"{name}.{scene.name}": value for name, value in of_scene.items()}
         return scores
 
 
@@ -104,29 +127,22 @@ def _mean_log(grid: Grid, truth: Table, estimate: Table) -> float:
     return float(np.nanmean(np.abs(f - g)))
 
 
-def _picture_scores(
-    scene: SphereScene,
-    truth: Float64[np.ndarray, "n_pixels 3"],
-    estimate: Float64[np.ndarray, "n_pixels 3"],
-) -> Scores:
+def _picture_scores(mask: Mask, truth: Pixels, estimate: Pixels) -> Scores:
     coded = [to_srgb(x) for x in (truth, estimate)]
     off = coded[0] - coded[1]
     square = float(np.square(off).mean())
-    mask = scene.mask()
     whole = [_whole(x, mask) for x in (*coded, truth, estimate)]
     return {
         "mae": float(np.abs(off).mean()),
         "rmse": square**0.5,
-        "psnr": min(MOST_PSNR, -10 * np.log10(square)) if square else MOST_PSNR,
+        "psnr": min(MOST_PSNR, float(-10 * np.log10(square))) if square else MOST_PSNR,
         "ssim": float(ssim(*whole[:2])[mask].mean()),
         "flip": flip(*whole[2:]),
         "ciede2000": float(ciede2000_difference(appearance(truth), appearance(estimate))),
     }
 
 
-def _whole(
-    pixels: Float64[np.ndarray, "n_pixels 3"], mask: np.ndarray
-) -> Float64[np.ndarray, "size size 3"]:
+def _whole(pixels: Pixels, mask: np.ndarray) -> Float64[np.ndarray, "size size 3"]:
     picture = np.zeros((*mask.shape, 3))
     picture[mask] = pixels
     return picture

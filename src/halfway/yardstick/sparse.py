@@ -25,6 +25,7 @@ from ..library import Library
 from ..measurements import Measurements
 from ..recipes import Mixer
 from ..recovery import Recovery, Setup, plan
+from ..recovery.log_relative import cosines_at, mapped, unmapped
 from .data import values_of
 from .reconstruction import LogRelative
 
@@ -121,18 +122,27 @@ def planned_mix(train: Library, n: int, rng: np.random.Generator) -> Sampling | 
 
 def unplanned(train: Library, n: int, rng: np.random.Generator) -> Sampling | None:
     """`halfway.recover` at directions that are drawn."""
-    cells = rng.choice(_measurable(train.grid), n, replace=False)
-    wi, wo = (x.reshape(-1, 3)[cells] for x in train.grid.directions())
+    wi, wo = random_directions(train.grid, n, rng)
     return Sampling(wi, wo, completion(train, wi, wo))
 
 
+def random_directions(
+    grid: Grid, n: int, rng: np.random.Generator
+) -> tuple[Directions, Directions]:
+    """Those of cells within reach, each as likely."""
+    cells = rng.choice(_measurable(grid), n, replace=False)
+    wi, wo = (x.reshape(-1, 3)[cells] for x in grid.directions())
+    return wi, wo
+
+
 def completion(train: Library, wi: Directions, wo: Directions) -> Complete:
-    """What `halfway.recover` makes of values at these directions: the completed table."""
-    setup = Setup.of(train, wi, wo)
+    """What `halfway.recover` makes of values at these directions: the completed table, without its interval."""
+    setup, cosines = Setup.of(train, wi, wo), cosines_at(train.grid, slice(None))
+    rows = mapped(values_of(train), cosines).reshape(3 * len(train), -1)
 
     def completed(values: Float64[np.ndarray, "n 3"]) -> np.ndarray:
-        found = Recovery.of(setup, Measurements(wi, wo, values)).completion()
-        return found.table.values.reshape(3, -1)
+        weights = Recovery.of(setup, Measurements(wi, wo, values)).weights
+        return unmapped(weights.astype(np.float32) @ rows, cosines)
 
     return completed
 

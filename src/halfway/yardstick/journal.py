@@ -1,0 +1,84 @@
+"""What a benchmark has measured so far, in a file: a run that is stopped goes on from there.
+
+{"of": {...}}                                            what all is measured of
+{"unit": ["recover", "liu2023", "mine", 5, 0], "scores": ...}      one line for each part, once it is measured
+"""
+
+import json
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import Any, TypeVar
+
+from ..errors import HalfwayError
+from ..files import replacing
+from ..locations import append_text
+from ..tasks import Work
+
+T = TypeVar("T")
+Unit = tuple[str | int, ...]
+
+
+class Journal:
+    """The parts that are measured, by what they are; open one with `Journal.open`."""
+
+    def __init__(self, path: Path | None, known: dict[Unit, Any]) -> None:
+        self._path = path
+        self._known = known
+
+    @classmethod
+    def open(cls, path: Path | None, of: Mapping[str, Any]) -> "Journal":
+        """Of a run; with a path, what an earlier run noted there counts as measured.
+
+        Raises
+        ------
+        HalfwayError
+            When the earlier run measured something else.
+        """
+        if path is None:
+            return cls(None, {})
+        head, *lines = list(_whole_lines(path)) or [{"of": of}]
+        if differ := [name for name in of if head.get("of", {}).get(name) != of[name]]:
+            raise HalfwayError(
+                f"{path} holds results of a run that was stopped, of another {differ[0].replace('_', ' ')}: "
+                "expected the same, to go on from there. Choose another folder with -o, or add --force to begin again."
+            )
+        journal = cls(path, {tuple(line["unit"]): line["scores"] for line in lines})
+        journal._rewrite(of)
+        return journal
+
+    def run(
+        self, f: Callable[[T], Any], tasks: Sequence[T], unit: Unit, work: Work, *, label: str
+    ) -> list[Any]:
+        """``f`` of every task, in order; what is known is not measured again."""
+        units = [(*unit, i) for i in range(len(tasks))]
+        missing = [i for i, each in enumerate(units) if each not in self._known]
+        results = work.run(f, [tasks[i] for i in missing], label=label)
+        for i, scores in zip(missing, results, strict=True):
+            self._add(units[i], scores)
+        return [self._known[each] for each in units]
+
+    def _add(self, unit: Unit, scores: Any) -> None:
+        self._known[unit] = scores
+        if self._path:
+            append_text(self._path, _line(unit=unit, scores=scores))
+
+    def _rewrite(self, of: Mapping[str, Any]) -> None:
+        """Without a line that was cut off."""
+        lines = [_line(of=of), *(_line(unit=u, scores=s) for u, s in self._known.items())]
+        if self._path:
+            with replacing(self._path) as temporary:
+                temporary.write_text("".join(lines), encoding="utf-8")
+
+
+def _whole_lines(path: Path) -> Iterator[Any]:
+    """Up to one that is cut off."""
+    text = path.read_text(encoding="utf-8") if path.exists() else ""
+    for line in text.splitlines():
+        try:
+            yield json.loads(line)
+        except ValueError:
+            return
+
+
+def _line(**facts: Any) -> str:
+    return json.dumps(facts) + "\n"
