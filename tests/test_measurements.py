@@ -134,6 +134,10 @@ def test_a_plan_is_to_be_filled_in(tmp_path: Path):
         ("theta_i [deg],theta_o [deg],f_r [1/sr]\n1,1,1", "has no column phi_o"),
         ("theta_i [deg],theta_i [deg],f_r [1/sr]\n1,1,1", "names the column theta_i twice"),
         ("theta_i [deg],theta_o [deg],phi_o [deg]\n1,1,1", "has no kind of values"),
+        (
+            "theta_i [deg],theta_o [deg],phi_o [deg],r [1/sr],g [1/sr]\n1,1,1,1,1",
+            "has no column b: expected r, g and b",
+        ),
         (f"{HEADER},f_r [1/sr]\n1,1,1,1,1,1,1,1", "has more than one kind of values"),
         (f"{HEADER}\n1,2,3", "line 2 has 3 cells: expected 7"),
         (f"{HEADER}\n#\n1,0,2,0,1,x,1", "has 'x' at line 3, column g: expected a number"),

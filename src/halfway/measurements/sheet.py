@@ -73,6 +73,11 @@ class Sheet:
 
     def _values(self) -> tuple[str, ...]:
         """The columns of values."""
+        missing = [name for name in RGB if name not in self.columns]
+        if 0 < len(missing) < len(RGB):
+            raise FormatError(
+                f"{self.label} has no column {missing[0]}: expected r, g and b, or f_r where there is one value."
+            )
         there = [
             names
             for names in (RGB, (GREY,), tuple(self.spectrum.values()))

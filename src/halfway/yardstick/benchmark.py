@@ -84,6 +84,7 @@ def benchmark(
     on = grid or (QUICK_GRID if quick else GRID)
     chosen = [split(name, library.names) for name in splits or (SPLITS[:1] if quick else SPLITS)]
     kept = Journal.open(journal, _identity(library, on, quick, seed))
+    answered = [*_triplets(answers, library, work)] if answers else []
     run = _Run.of(gridded(library, on, work=work), kept, work)
     others, skipped = _fits(library, quick, work)
     ks, ns, n_draws = (QUICK_KS, QUICK_NS, QUICK_N_DRAWS) if quick else (KS, NS, N_DRAWS)
@@ -94,9 +95,8 @@ def benchmark(
     for each in rest:
         results += _reconstructed(run, each, reconstructions, ks)
     results += _halfway(on, work)
-    if answers:
-        results += _triplets(answers, library, work)
-    else:
+    results += answered
+    if not answers:
         skipped["triplets"] = "no file of answers was given (--answers)"
     seconds = time.monotonic() - start
     return Benchmark(
