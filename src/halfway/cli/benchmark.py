@@ -10,6 +10,9 @@ from ..locations import DEFAULT_LIBRARY
 from .console import say, show, work
 from .options import AsJson, Force, GridText, Lib
 
+PROCESS_DRAWS = 3
+"""Of directions for the neural process, of which one table takes seconds."""
+
 
 class SplitName(StrEnum):
     liu2023 = "liu2023"
@@ -72,7 +75,9 @@ def benchmark(
         fits["neural process"] = process.reconstruct
         recoveries |= {
             "neural process, planned directions": yardstick.RecoveryMethod(process.planned),
-            "neural process, random directions": yardstick.RecoveryMethod(process.unplanned, True),
+            "neural process, random directions": yardstick.RecoveryMethod(
+                process.unplanned, PROCESS_DRAWS
+            ),
         }
     library = open_library(lib)
     folder = output or (None if as_json else Path("benchmark"))

@@ -23,7 +23,7 @@ from .people import agreements
 from .reconstruction import RECONSTRUCTIONS, Reconstruction, beside, fitted
 from .results import Benchmark, Result
 from .scores import Judge, Known, Scores
-from .sparse import RECOVERIES, RecoveryMethod
+from .sparse import N_DRAWS, RECOVERIES, RecoveryMethod
 from .splits import Fold, Split, split
 
 GRID = Grid.merl(90, 30, 36)
@@ -32,7 +32,7 @@ KS = (1, 2, 3, 5, 7, 10, 15, 20, 30)
 NS = (1, 2, 5, 10, 20, 40, 100, 400)
 QUICK_KS = (3, 10)
 QUICK_NS = (5, 20)
-N_DRAWS, QUICK_N_DRAWS = 20, 3
+QUICK_N_DRAWS = 3
 PUBLISHED_FITS = {"ABC fit": ("merl-abc", 9), "SGD fit": ("merl-sgd", 33)}
 """Published fits by method: the set, and its numbers per material."""
 MODEL_FITS = {"GGX fit (glTF)": "gltf", "OpenPBR fit": "openpbr"}
@@ -202,7 +202,7 @@ def _recovered(
     train, test = run.parts(on.folds[0])
     for (name, method), n in product(methods.items(), ns):
         draw, unit = partial(_draw, run, train, test, method, n), ("recover", on.name, name, n)
-        tasks, label = draws if method.is_random else draws[:1], f"{n} samples: {name}"
+        tasks, label = draws[: method.n_draws], f"{n} samples: {name}"
         drawn = run.journal.run(draw, tasks, unit, run.work, label=label)
         if rows := [each for each in drawn if each]:
             yield Result.of("recover", on.name, name, n, rows)

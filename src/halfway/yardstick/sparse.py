@@ -50,12 +50,16 @@ class Sampling(NamedTuple):
     complete: Complete
 
 
+N_DRAWS = 20
+"""Of directions, where a method is fast."""
+
+
 class RecoveryMethod(NamedTuple):
     """A method of the task."""
 
     method: Callable[[Library, int, np.random.Generator], Sampling | None]
-    is_random: bool = False
-    """Whether its directions are drawn: it is then judged over many draws."""
+    n_draws: int = 1
+    """Over how many draws it is judged, at most: 1 where its directions are not drawn."""
 
 
 Cells = Int[np.ndarray, " n"]
@@ -202,9 +206,9 @@ def _measurable(grid: Grid) -> Cells:
 
 RECOVERIES: Mapping[str, RecoveryMethod] = {
     "halfway, planned directions": RecoveryMethod(planned),
-    "halfway, random directions": RecoveryMethod(unplanned, is_random=True),
+    "halfway, random directions": RecoveryMethod(unplanned, N_DRAWS),
     "nearest mix, planned directions": RecoveryMethod(planned_mix),
     "ridge, Nielsen's directions": RecoveryMethod(partial(ridge, conditioned)),
     "ridge, FROST's directions": RecoveryMethod(partial(ridge, pursued)),
-    "ridge, random directions": RecoveryMethod(partial(ridge, drawn), is_random=True),
+    "ridge, random directions": RecoveryMethod(partial(ridge, drawn), N_DRAWS),
 }
