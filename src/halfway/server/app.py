@@ -9,7 +9,7 @@
     POST /api/find                               the recipe that is like another and has some attributes
     GET  /api/tables/{material}                  a table as half floats (`blocks`)
     POST /api/mix                                the table of a recipe, as half floats; ?small=true: a small one
-    GET  /api/thumbnails                         small pictures of all materials, as half floats
+    GET  /api/thumbnails                         small pictures of all materials, with shared exponents
     POST /api/thumbnails                         such pictures of recipes
     GET  /api/environment                        the studio, as half floats
     POST /api/export/{format}                    a recipe's file (`taking`)
@@ -160,7 +160,7 @@ def _add_queries(app: FastAPI, explorer: Explorer) -> None:
 def _add_blocks(app: FastAPI, explorer: Explorer) -> None:
     def answer(request: Request, of: Callable[[], Block]) -> Response:
         # The checksum names every sample of the library, so an answer that the browser kept is good.
-        etag = f'"{explorer.library.checksum[:16]}-1"'
+        etag = f'"{explorer.library.checksum[:16]}-2"'
         if request.headers.get("if-none-match") == etag:
             return _unchanged(etag, REVALIDATED)
         block = of()

@@ -88,6 +88,7 @@ class Explorer:
         self.library = library
         progress = self._progress
         self._looks = Once(partial(Looks.fit, library, work=self._work), progress)
+        self._thumbnails = Once(self._all_spheres, progress)
         self._spaces = {
             (name, blend): Once(
                 partial(self._make, name, library, blend=blend, work=self._work), progress
@@ -105,6 +106,7 @@ class Explorer:
     def warm(self) -> None:
         """Compute what the first route needs: compiled metrics and solvers take a second to load."""
         with suppress(HalfwayError):  # said to whoever asks
+            self._thumbnails.get(None)
             pictures = self._looks.get(None)
             name, kind = next(iter(SPACES.items()))
             space = self._spaces[name, kind.usual_blend].get(None)
@@ -195,8 +197,8 @@ class Explorer:
         return Block.of_table(TabularBrdf(values.reshape(3, *tables.grid.shape), tables.grid))
 
     def thumbnails(self) -> Block:
-        """Pictures of all materials on a lit sphere, (N, size, size, RGBA), linear, black beside the sphere."""
-        return self._spheres(self.pictures.images)
+        """Pictures of all materials on a lit sphere, linear (`Block.of_pictures`)."""
+        return self._thumbnails.get(self._patience)
 
     def thumbnails_of(self, documents: Sequence[RecipeDocument]) -> Block:
         """Such pictures of recipes.
@@ -214,11 +216,14 @@ class Explorer:
         mixes = [self.pictures.mix(self._weights(each), each.blend) for each in recipes]
         return self._spheres(np.concatenate(mixes))
 
+    def _all_spheres(self) -> Block:
+        block = self._spheres(self._looks.get(None).images)
+        # Two seconds for thousands: before they are asked for.
+        _ = block.packed
+        return block
+
     def _spheres(self, images: np.ndarray) -> Block:
-        mask = self.pictures.scene.mask()
-        pictures = np.zeros((len(images), *mask.shape, 3), np.float32)
-        pictures[:, mask] = images.clip(0)
-        return Block.of(pictures, np.broadcast_to(mask, pictures.shape[:-1]))
+        return Block.of_pictures(images, self._looks.get(None).scene.mask())
 
     def environment(self) -> Block:
         """The studio of soft boxes as a latitude-longitude picture; the top row looks up, the middle column to +y."""

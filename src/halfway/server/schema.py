@@ -241,7 +241,7 @@ class Added(Model):
 
 
 class BlockFile(Model):
-    """What a file of half floats holds."""
+    """What a file of numbers holds; see `halfway.server.blocks`."""
 
     shape: list[int]
     scale: Vector

@@ -167,7 +167,7 @@ export interface Added {
   readonly name: string;
 }
 
-/** What a file of half floats holds. */
+/** What a file of numbers holds; see `halfway.server.blocks`. */
 export interface BlockFile {
   readonly shape: readonly number[];
   readonly scale: readonly [number, number, number];

@@ -27,8 +27,12 @@ export class Spheres {
   private readonly looks: THREE.BufferAttribute;
   private readonly order: THREE.BufferAttribute;
   private readonly crowd: number;
+  private pixels = PIXELS;
 
-  constructor(names: readonly string[], thumbnails: Thumbnails) {
+  constructor(
+    private readonly names: readonly string[],
+    private readonly thumbnails: Thumbnails,
+  ) {
     const n = names.length;
     this.crowd = Math.min(1, Math.cbrt(FEW / n));
     this.positions = new THREE.BufferAttribute(new Float32Array(3 * n), 3);
@@ -40,7 +44,15 @@ export class Spheres {
       .setAttribute("look", this.looks)
       .setAttribute("tile", tiles)
       .setIndex(this.order);
-    this.points = new THREE.Points(geometry, material(names, thumbnails));
+    this.points = new THREE.Points(geometry, material());
+    this.paint();
+  }
+
+  /** Give the card the pictures: at first, and when it has lost them. */
+  paint(): void {
+    const columns = Math.ceil(Math.sqrt(this.names.length));
+    this.uniform("uColumns").value = columns;
+    this.uniform("uAtlas").value = atlas(this.names, this.thumbnails, columns);
   }
 
   arrange(points: readonly THREE.Vector3[]): void {
@@ -68,7 +80,12 @@ export class Spheres {
   /** In a panel of this size, in device pixels of which `ratio` are one of CSS. */
   resize(width: number, height: number, ratio: number): void {
     const room = Math.min(1.5, Math.max(0.75, Math.min(width, height) / ratio / 480));
-    this.uniform("uPixels").value = PIXELS * ratio * room * this.crowd;
+    this.pixels = PIXELS * ratio * room * this.crowd;
+  }
+
+  /** Seen from so near, spheres grow less than the room between them, so that one sees in among them. */
+  approach(distance: number): void {
+    this.uniform("uPixels").value = this.pixels * Math.min(1, Math.sqrt(distance / DISTANCE));
   }
 
   /** In device pixels, of a sphere at a point that is seen from `eye`. */
@@ -91,8 +108,7 @@ export class Spheres {
   }
 }
 
-function material(names: readonly string[], thumbnails: Thumbnails): THREE.RawShaderMaterial {
-  const columns = Math.ceil(Math.sqrt(names.length));
+function material(): THREE.RawShaderMaterial {
   return new THREE.RawShaderMaterial({
     glslVersion: THREE.GLSL3,
     vertexShader: vertex,
@@ -103,8 +119,8 @@ function material(names: readonly string[], thumbnails: Thumbnails): THREE.RawSh
     depthTest: false,
     depthWrite: false,
     uniforms: {
-      uAtlas: { value: atlas(names, thumbnails, columns) },
-      uColumns: { value: columns },
+      uAtlas: { value: null },
+      uColumns: { value: 1 },
       uPixels: { value: PIXELS },
       uDistance: { value: DISTANCE },
       uStop: { value: new THREE.Color() },
@@ -133,5 +149,9 @@ function atlas(names: readonly string[], thumbnails: Thumbnails, columns: number
   );
   texture.minFilter = texture.magFilter = THREE.LinearFilter;
   texture.needsUpdate = true;
+  // The card has it: thousands of pictures take tens of megabytes.
+  texture.onUpdate = () => {
+    (texture.image as { data: Uint8Array | null }).data = null;
+  };
   return texture;
 }
