@@ -57,9 +57,7 @@ def large(browser: Browser, address: str, width: int, height: int) -> None:
     print(f"ready, with the space and a material, after {ready:.1f} s; {_memory(session):.0f} MB")
     page.get_by_role("button", name="Grid", exact=True).click()
     start = time.perf_counter()
-    page.wait_for_function(
-        "[...document.querySelectorAll('.grid canvas')].some(({ width }) => width > 0)"
-    )
+    page.wait_for_function(PAINTED)
     shown = page.locator(".grid button").count()
     print(f"grid of {shown:,} after {time.perf_counter() - start:.2f} s; {_memory(session):.0f} MB")
     page.close()
@@ -69,7 +67,7 @@ def memory(browser: Browser, address: str, width: int, height: int, seconds: flo
     """The scripts' memory, and what of the card's objects has not been given back, before and after so long a drag."""
     page = browser.new_page(viewport={"width": width, "height": height})
     session = page.context.new_cdp_session(page)
-    page.add_init_script(COUNT)
+    page.add_init_script(f"({COUNT})()")
     _open(page, address)
     for after in (WARM, seconds):
         end = time.monotonic() + after
@@ -120,6 +118,8 @@ def _in_words(moves: list[dict[str, Any]]) -> str:
 
 
 READY = ".material[data-ready=true]"
+
+PAINTED = "() => [...document.querySelectorAll('.grid canvas')].some(({ width }) => width > 0)"
 
 RASTERISER = """() => {
   const gl = document.createElement("canvas").getContext("webgl2");

@@ -10,7 +10,7 @@ import type { Thumbnails } from "../thumbnails";
 import { turnArm, widen } from "./camera";
 import { toRenderer } from "./card";
 import type { SpaceMap } from "./maps";
-import { type Look, Spheres } from "./spheres";
+import { type Look, Spheres, type Tints } from "./spheres";
 
 type Segment = readonly [THREE.Vector3, THREE.Vector3];
 
@@ -108,6 +108,10 @@ export class Cloud {
 
   setLooks(looks: readonly Look[]): void {
     this.spheres.setLooks(looks);
+  }
+
+  setTints(tints: Tints | null): void {
+    this.spheres.setTints(tints);
   }
 
   setColours(text: string, accent: string, ground: string): void {

@@ -12,6 +12,11 @@ export interface Look {
   readonly dim: boolean;
 }
 
+/** sRGB of each material in place of its picture; null for grey. */
+export type Tints = readonly (readonly [number, number, number] | null)[];
+
+/** Of a material that has no number. */
+const UNKNOWN = [0.5, 0.5, 0.5] as const;
 const RINGS = ["none", "stop", "hovered"] as const;
 const PIXELS = 26;
 /** Where a sphere is `PIXELS` wide. */
@@ -25,6 +30,7 @@ export class Spheres {
   readonly points: THREE.Points<THREE.BufferGeometry, THREE.RawShaderMaterial>;
   private readonly positions: THREE.BufferAttribute;
   private readonly looks: THREE.BufferAttribute;
+  private readonly tints: THREE.BufferAttribute;
   private readonly order: THREE.BufferAttribute;
   private readonly crowd: number;
   private pixels = PIXELS;
@@ -37,11 +43,13 @@ export class Spheres {
     this.crowd = Math.min(1, Math.cbrt(FEW / n));
     this.positions = new THREE.BufferAttribute(new Float32Array(3 * n), 3);
     this.looks = new THREE.BufferAttribute(new Float32Array(2 * n), 2);
+    this.tints = new THREE.BufferAttribute(new Float32Array(4 * n), 4);
     this.order = new THREE.BufferAttribute(new Uint32Array(n), 1);
     const tiles = new THREE.BufferAttribute(Float32Array.from(names.keys()), 1);
     const geometry = new THREE.BufferGeometry()
       .setAttribute("position", this.positions)
       .setAttribute("look", this.looks)
+      .setAttribute("tint", this.tints)
       .setAttribute("tile", tiles)
       .setIndex(this.order);
     this.points = new THREE.Points(geometry, material());
@@ -67,6 +75,14 @@ export class Spheres {
       this.looks.setXY(i, RINGS.indexOf(ring), dim ? 1 : 0);
     });
     this.looks.needsUpdate = true;
+  }
+
+  /** Colours instead of pictures; null: pictures. */
+  setTints(tints: Tints | null): void {
+    for (let i = 0; i < this.tints.count; i++) {
+      this.tints.setXYZW(i, ...(tints?.[i] ?? UNKNOWN), tints ? 1 : 0);
+    }
+    this.tints.needsUpdate = true;
   }
 
   setColours(text: string, accent: string, ground: string): void {

@@ -22,7 +22,8 @@ export class FreePoint {
 
   /** Whether the present material can leave the route on this map. */
   get isFree(): boolean {
-    return this.cloud.map instanceof CoordinateMap && !!this.context.store.get().view?.has_points;
+    const { view, map } = this.context.store.get();
+    return !!view?.has_points && view.embeddings.some(({ name }) => name === map);
   }
 
   /** Whether the pointer is at the present material, which can be dragged. */

@@ -7,6 +7,7 @@ import { Cloud } from "../../render/cloud";
 import { GRID } from "../../state";
 import { notices } from "../notices";
 import { gridFilters, materialGrid } from "./grid";
+import { numberChoices } from "./measured";
 import { SpacePicture } from "./picture";
 
 export function spacePanel(context: Context): HTMLElement {
@@ -22,7 +23,8 @@ export function spacePanel(context: Context): HTMLElement {
   const filters = gridFilters(context);
   const home = iconButton("home", "See the whole space", () => cloud?.goHome());
   home.hidden = true;
-  const foot = el("div.line.bar", note, home, filters);
+  const measures = numberChoices(context);
+  const foot = el("div.line.bar", note, home, filters, measures);
   const panel = el(
     "section.panel.space",
     { "aria-label": "Space" },
@@ -61,7 +63,6 @@ export function spacePanel(context: Context): HTMLElement {
       area.append(grid);
     }
     area.classList.toggle("side-by-side", isGrid);
-    note.hidden = isGrid;
     filters.hidden = !isGrid;
   });
   return panel;

@@ -1,7 +1,7 @@
 // What is drawn of the space: the materials on the chosen map, what is between them, the route, and the present material.
 
 import type { Vector3 } from "three";
-
+import type { EmbeddingView } from "../../api/schema";
 import { LINEAR } from "../../blend";
 import type { Context } from "../../context";
 import { coordinatesIn } from "../../coordinates";
@@ -15,11 +15,13 @@ import type { Cloud } from "../../render/cloud";
 import { CoordinateMap, type SpaceMap } from "../../render/maps";
 import { recipeAt } from "../../route";
 import { blendOf, isAway } from "../../shown";
-import { GRID, type State } from "../../state";
+import { GRID, NUMBERS, type State } from "../../state";
+import { tintsOf } from "../../tint";
 import { turnOnKeys } from "../material/orbit";
 import { sayWhenLost } from "../notices";
 import { FreePoint } from "./free";
 import { inWords, Labels } from "./labels";
+import { byNumbers, pointBy } from "./measured";
 import { listenToPointer, type Pointer } from "./pointer";
 
 const APPEARANCE = "Looks";
@@ -35,6 +37,8 @@ export class SpacePicture {
   readonly labels: Labels;
   private readonly appearance: Appearance;
   private axes: ReturnType<CoordinateMap["axes"]> = [];
+  /** What the chosen map shows; undefined for that of looks. */
+  private embedding: EmbeddingView | undefined;
   private readonly free: FreePoint;
   private trace: Trace = { ts: [], points: [] };
   /** Where a person pointed, when no mix is there. */
@@ -66,23 +70,28 @@ export class SpacePicture {
     store.watch(["route"], () => this.traceRoute());
     store.watch(["recipe", "atPoint"], () => this.putRecipe());
     store.watch(["stops", "hovered", "matches"], (state) => this.dress(state));
+    store.watch(["attributes", "tint"], (state) => this.colour(state));
+    store.watch(["attributes", "axes"], () => this.chosen === NUMBERS && this.arrange());
+    store.watch(["numbers"], () => this.chosen === NUMBERS && this.putRecipe());
   }
 
-  /** What the chosen map shows; undefined for that of looks. */
-  private get embedding() {
-    const { view, map } = this.context.store.get();
+  private choose(): EmbeddingView | undefined {
+    const { view, map, attributes, axes } = this.context.store.get();
+    if (map === NUMBERS) return attributes ? byNumbers(attributes, axes) : undefined;
     return view?.embeddings.find(({ name }) => name === map);
   }
 
   /** The name of the map that is shown. */
   private get chosen(): string {
-    return this.context.store.get().map === GRID ? GRID : (this.embedding?.name ?? APPEARANCE);
+    const { view, map } = this.context.store.get();
+    const names = [GRID, NUMBERS, ...(view?.embeddings ?? []).map(({ name }) => name)];
+    return names.includes(map) ? map : APPEARANCE;
   }
 
   /** The maps that the space has. */
   private offer(): void {
     const embeddings = this.context.store.get().view?.embeddings ?? [];
-    const options = [APPEARANCE, ...embeddings.map(({ name }) => name), GRID];
+    const options = [APPEARANCE, ...embeddings.map(({ name }) => name), NUMBERS, GRID];
     const { element, mark } = segments(
       "Map",
       options.map((name) => [name]),
@@ -98,6 +107,7 @@ export class SpacePicture {
   }
 
   private arrange(): void {
+    this.embedding = this.choose();
     const { embedding } = this;
     const map = embedding ? new CoordinateMap(embedding, this.context.names) : this.appearance;
     this.cloud.arrange(map, embedding?.edges ?? []);
@@ -114,6 +124,8 @@ export class SpacePicture {
   private describe(): void {
     const { atPoint } = this.context.store.get();
     const axes = this.embedding?.axes.slice(0, 3);
+    // The axes are written where they are chosen.
+    this.beside.note.hidden = [GRID, NUMBERS].includes(this.chosen);
     if (atPoint !== null && !atPoint.inside)
       this.beside.note.textContent = "no mix is at the ring: the dot is one nearby";
     else
@@ -126,6 +138,12 @@ export class SpacePicture {
     const { route } = this.context.store.get();
     const { map } = this.cloud;
     if (route === null || map === null) return;
+    if (this.chosen === NUMBERS) {
+      // What lies between is not known until it is shown.
+      this.cloud.setRoute([], []);
+      this.putRecipe();
+      return;
+    }
     const isOfPictures = map === this.appearance && route.blend !== LINEAR;
     const n = isOfPictures ? ROUTE_PICTURES : ROUTE_POINTS;
     const even = Array.from({ length: n + 1 }, (_, i) => i / n);
@@ -152,14 +170,21 @@ export class SpacePicture {
     const here = this.present(map);
     this.free.here = here;
     this.asked = this.outside();
-    this.cloud.setIngredients(embedding ? pairs(corners) : corners.map((corner) => [here, corner]));
+    const isOfSpace = embedding !== undefined && this.chosen !== NUMBERS;
+    this.cloud.setIngredients(
+      isOfSpace ? pairs(corners) : corners.flatMap((corner) => (here ? [[here, corner]] : [])),
+    );
     this.describe();
     this.draw();
   }
 
   /** Where the present material is: on the line of the route, where it is on the route. */
-  private present(map: SpaceMap): Vector3 {
+  private present(map: SpaceMap): Vector3 | null {
     const state = this.context.store.get();
+    if (map instanceof CoordinateMap && this.chosen === NUMBERS) {
+      const point = pointBy(state.numbers?.attributes ?? {}, state.axes);
+      return point && map.pointAt(point);
+    }
     const isOnLine = map === this.appearance && this.trace.ts.length > 0 && !isAway(state);
     if (isOnLine) return along(this.trace, state.t);
     return map.pointOf(state.recipe, blendOf(state), () => this.putRecipe());
@@ -181,6 +206,12 @@ export class SpacePicture {
         dim: hits !== null && !hits.has(name),
       })),
     );
+    this.draw();
+  }
+
+  private colour({ attributes, tint }: State): void {
+    const shown = attributes?.find(({ name }) => name === tint);
+    this.cloud.setTints(shown ? tintsOf(shown) : null);
     this.draw();
   }
 
