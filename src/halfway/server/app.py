@@ -7,6 +7,7 @@
     POST /api/position                           the recipe at a point of a space
     GET  /api/attributes                         the attributes of all materials
     POST /api/find                               the recipe that is like another and has some attributes
+    POST /api/perceived                          how people would perceive a recipe
     GET  /api/tables/{material}                  a table as half floats (`blocks`)
     POST /api/mix                                the table of a recipe, as half floats; ?small=true: a small one
     GET  /api/thumbnails                         small pictures of all materials, with shared exponents
@@ -47,6 +48,7 @@ from .schema import (
     LegView,
     LibrarySummary,
     NotYet,
+    PerceptionView,
     Point,
     PositionView,
     Problem,
@@ -138,6 +140,10 @@ def _add_queries(app: FastAPI, explorer: Explorer) -> None:
     @app.post("/api/find")
     def find(wanted: Wanted) -> FoundView:
         return explorer.find(wanted)
+
+    @app.post("/api/perceived")
+    def perceived(recipe: RecipeDocument) -> PerceptionView:
+        return explorer.perceived(recipe)
 
     @app.post("/api/export/{format}", response_class=Response, responses=BYTES)
     def export(format: Name, recipe: RecipeDocument) -> StreamingResponse:

@@ -23,6 +23,7 @@ from ..errors import HalfwayError, RecipeError, SpaceError
 from ..halfdiff import Grid
 from ..library import Joined, Library
 from ..look import Looks, small_grid
+from ..people import Perception
 from ..recipes import Blend, Mixer, Recipe
 from ..render import SCENES, studio
 from ..space import PACES, SPACES, Embedding, Route, Scores, Space, lengths, make_space
@@ -30,7 +31,7 @@ from ..space import route as route_through
 from ..tasks import HERE, Work
 from .blocks import Block
 from .drawable import bytes_on_card, coarsened, drawn, drawn_grid
-from .finding import attributes_view, found_view
+from .finding import attributes_view, found_view, perception_view
 from .making import Once, Progress
 from .schema import (
     AttributesView,
@@ -41,6 +42,7 @@ from .schema import (
     LibrarySummary,
     Material,
     PaceView,
+    PerceptionView,
     Point,
     PointLight,
     PositionView,
@@ -102,6 +104,7 @@ class Explorer:
         self._mixer = Mixer(library, n_rows=12)
         control = partial(Control.of, library, mixer=self._mixer, work=self._work)
         self._control = Once(control, progress)
+        self._perception = Once(partial(Perception.of, library, work=self._work), progress)
 
     def warm(self) -> None:
         """Compute what the first route needs: compiled metrics and solvers take a second to load."""
@@ -182,6 +185,11 @@ class Explorer:
     def find(self, wanted: Wanted) -> FoundView:
         """The recipe that has what is wanted, or misses least of it."""
         return found_view(self._control.get(self._patience), self._recipe(wanted.like), wanted)
+
+    def perceived(self, document: RecipeDocument) -> PerceptionView:
+        """How people would perceive a recipe."""
+        perception = self._perception.get(self._patience)
+        return perception_view(perception, self._mixer.mix(self._recipe(document)))
 
     def table(self, name: str) -> Block:
         """The table of one material."""

@@ -5,6 +5,7 @@ import type {
   FoundView,
   LegView,
   LibrarySummary,
+  PerceptionView,
   PositionView,
   ProgressView,
   RecipeDocument,
@@ -70,6 +71,8 @@ export interface Client {
   readonly attributes: () => Promise<AttributesView>;
   /** The recipe that is like another and has some attributes; who cannot has no such function. */
   readonly find?: (wanted: Wanted, signal: AbortSignal) => Promise<FoundView>;
+  /** How people would perceive a recipe; who cannot has no such function. */
+  readonly perceived?: (recipe: RecipeDocument, signal: AbortSignal) => Promise<PerceptionView>;
   readonly thumbnails: () => Promise<Pictures>;
   readonly environment: () => Promise<Block>;
   /** One material's table; `onProgress` is told the share that has come, in [0, 1]. */

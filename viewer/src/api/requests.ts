@@ -39,6 +39,7 @@ export function clientOver(ask: Ask): Client {
       json(await post("api/position", { space, blend, point }, signal)),
     attributes: async () => json(await get("api/attributes")),
     find: async (wanted, signal) => json(await post("api/find", wanted, signal)),
+    perceived: async (recipe, signal) => json(await post("api/perceived", recipe, signal)),
     mixed: async (recipe, small, signal) => block(await post(`api/mix?small=${small}`, recipe, signal)),
     thumbnailsOf: async (recipes) => pictures(await post("api/thumbnails", recipes)),
     thumbnails: async () => pictures(await get("api/thumbnails")),

@@ -162,6 +162,18 @@ export interface FoundView {
   readonly ranges: Readonly<Record<string, readonly [number, number]>>;
 }
 
+/** How a material is perceived in one respect; see `halfway.people.Perceived`. */
+export interface PerceivedView {
+  readonly name: string;
+  readonly value: number;
+  readonly trust: string;
+}
+
+/** How people would perceive a recipe. */
+export interface PerceptionView {
+  readonly perceived: readonly PerceivedView[];
+}
+
 /** A measurement that is a material of the library now. */
 export interface Added {
   readonly name: string;

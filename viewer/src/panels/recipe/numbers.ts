@@ -5,12 +5,13 @@ import { type Asked, inDigits, LABELS, missed, sliderOf } from "../../asked";
 import type { Context } from "../../context";
 import { el, iconButton } from "../../dom";
 import { SLIDERS } from "../../measuring";
+import { perceivedNumbers } from "./perceived";
 
 export function numberSliders(context: Context): HTMLElement {
   const { store } = context;
   const list = el("ul.dials", { "aria-label": "Numbers" });
   const note = el("p.note.missing", { role: "status" });
-  const element = el("div.numbers", list, note);
+  const element = el("div.numbers", list, perceivedNumbers(context), note);
   store.watch(["attributes"], ({ attributes }) => {
     const dials = SLIDERS.flatMap((name) => attributes?.find((each) => each.name === name) ?? []);
     list.replaceChildren(...dials.map((attribute) => dial(context, attribute)));
