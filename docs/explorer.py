@@ -2,16 +2,15 @@
 
 ``python docs/explorer.py`` writes screenshots, and pictures of three materials on a sphere and a teapot in two lights, in the page
 beside the same in Mitsuba, and prints how far the two are apart. ``--only compare``, ``--only screens``, ``--only anisotropic`` (the
-screenshot of a library of both kinds) or ``--only speed`` (what the first load takes, a drag of t, and how long the picture takes to settle) does one of them. The rasteriser is Chromium's own in software;
+screenshot of a library of both kinds) or ``--only speed`` does one of them; so do the other measures of ``explorer_speed.py``, which
+are made when they are named. The rasteriser is Chromium's own in software;
 ``--angle vulkan --size 1440x900`` takes a graphics card.
 """
 
 import argparse
 import shutil
-import statistics
 import tempfile
 import threading
-import time
 from collections.abc import Generator
 from contextlib import contextmanager, suppress
 from dataclasses import replace
@@ -19,6 +18,7 @@ from itertools import product
 from pathlib import Path
 from typing import TypeAlias
 
+import explorer_speed
 import numpy as np
 import uvicorn
 from PIL import Image
@@ -60,18 +60,28 @@ OF_BOTH_KINDS: dict[str, Screen] = {
 }  # fmt: skip
 
 
+MEASURES = {
+    "speed": explorer_speed.speed,
+    "large": explorer_speed.large,
+    "memory": explorer_speed.memory,
+    "numbers": explorer_speed.numbers,
+}
+
+
 def main() -> None:
     """Make what is asked for."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--only", choices=["compare", "screens", "anisotropic", "speed"])
+    parser.add_argument("--only", choices=["compare", "screens", "anisotropic", *MEASURES])
     parser.add_argument(
         "--angle", default="swiftshader", help="what WebGL runs on, as Chromium names it"
     )
-    parser.add_argument("--size", default="460x560", help="of the window, for --only speed")
+    parser.add_argument("--size", default="460x560", help="of the window that is measured")
+    parser.add_argument("--library", default="builtin:merl-abc", help="that is measured")
+    parser.add_argument("--seconds", type=float, default=300, help="of dragging, for --only memory")
     parser.add_argument("--chromium", default=shutil.which("chromium"))
     given = parser.parse_args()
     only = given.only
-    library = open_library("builtin:merl-abc")
+    library = open_library(given.library)
     with served(library) as address, sync_playwright() as playwright:
         browser = playwright.chromium.launch(
             executable_path=given.chromium, args=[*FLAGS, f"--use-angle={given.angle}"]
@@ -85,8 +95,11 @@ def main() -> None:
             with tempfile.TemporaryDirectory() as folder, served(of_both_kinds(folder)) as other:
                 for name, screen in OF_BOTH_KINDS.items():
                     take(browser, other, name, screen)
-        if only in (None, "speed"):
-            speed(browser, address, *map(int, given.size.split("x")))
+        width, height = map(int, given.size.split("x"))
+        if only == "memory":
+            explorer_speed.memory(browser, address, width, height, given.seconds)
+        elif only in (None, "speed", "large", "numbers"):
+            MEASURES[only or "speed"](browser, address, width, height)
         browser.close()
 
 
@@ -138,52 +151,6 @@ def compare(browser: Browser, address: str, library: Library) -> None:
     page.close()
     picture = pictures.to_8_bit(np.concatenate(rows))
     Image.fromarray(picture).save(IMAGES / "explorer-beside-mitsuba.webp", quality=88)
-
-
-def speed(browser: Browser, address: str, width: int, height: int) -> None:
-    """What comes over the wire until the picture is there, when something useful is on the page, a step of t, and the rest."""
-    page = browser.new_page(viewport={"width": width, "height": height})
-    session = page.context.new_cdp_session(page)
-    session.send("Network.enable")
-    sizes: list[float] = []
-    session.on("Network.loadingFinished", lambda event: sizes.append(event["encodedDataLength"]))
-    start = time.perf_counter()
-    page.goto(address, wait_until="commit")
-    page.wait_for_selector(".chip")
-    useful = time.perf_counter() - start
-    page.wait_for_selector(".material[data-ready=true]", timeout=120_000)
-    page.wait_for_load_state("networkidle")
-    loaded = sum(sizes) / 1e6
-    print(page.evaluate(RASTERISER))
-    steps = page.evaluate(DRAG)
-    stopped = time.perf_counter()
-    page.wait_for_selector(".material[data-settled=true]", timeout=300_000)
-    settled = time.perf_counter() - stopped
-    print(f"first load: {loaded:.1f} MB; stops, search and light after {useful:.2f} s")
-    print(
-        f"a step of t: {statistics.median(steps):.0f} ms (median of {len(steps)}); settled {settled:.2f} s after the last, at {width} x {height}"
-    )
-    page.close()
-
-
-RASTERISER = """() => {
-  const gl = document.createElement("canvas").getContext("webgl2");
-  return gl.getParameter(gl.getExtension("WEBGL_debug_renderer_info").UNMASKED_RENDERER_WEBGL);
-}"""
-
-
-DRAG = """async () => {
-  const input = document.querySelector("[name=t]");
-  const times = [];
-  for (let i = 0; i <= 100; i++) {
-    const start = performance.now();
-    input.value = String(0.5 + 0.1 * Math.sin(i / 10));
-    input.dispatchEvent(new Event("input"));
-    await new Promise(requestAnimationFrame);
-    times.push(performance.now() - start);
-  }
-  return times;
-}"""
 
 
 def in_page(

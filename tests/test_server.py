@@ -14,6 +14,7 @@ from zipfile import ZipFile
 import numpy as np
 import pytest
 from fastapi.testclient import TestClient
+from httpx import Response
 from numpy.testing import assert_allclose, assert_array_equal
 from patience import PATIENCE, wait_until
 
@@ -22,6 +23,7 @@ from halfway.formats import write_merl
 from halfway.formats.rgl_writer import Resolution
 from halfway.halfdiff import Grid
 from halfway.library import ProceduralLibrary
+from halfway.look import Looks
 from halfway.look.small_tables import SmallTables
 from halfway.recipes import Blend, Recipe, mix
 from halfway.server import Explorer, Page, create_app, taking
@@ -53,6 +55,14 @@ def script(path: Path) -> ModuleType:
 
 def halfs(body: bytes, shape: str) -> np.ndarray:
     return np.frombuffer(body, "<f2").reshape([int(n) for n in shape.split(",")])
+
+
+def pictures(answer: Response) -> np.ndarray:
+    """Linear RGB and whether there is something, of bytes with shared exponents."""
+    shape = [int(n) for n in answer.headers["halfway-shape"].split(",")]
+    block = np.frombuffer(answer.content, np.uint8).reshape(shape)
+    exponent = block[..., 3:].astype(float)
+    return np.concatenate([block[..., :3] * 2 ** (exponent - 136), exponent > 0], axis=-1)
 
 
 def test_tables_that_depend_on_phi_h_are_sent_whole_and_taken_home_as_what_holds_them() -> None:
@@ -192,12 +202,19 @@ def test_what_takes_long_is_answered_with_how_far_it_is(small_library: Procedura
     wait_until(lambda: client.get("/api/thumbnails").status_code == 200)
 
 
-def test_thumbnails_are_the_basis_images(client: TestClient) -> None:
-    answer = client.get("/api/thumbnails")
-    block = halfs(answer.content, answer.headers["halfway-shape"])
+def test_thumbnails_are_the_basis_images(
+    client: TestClient, small_library: ProceduralLibrary
+) -> None:
+    looks = Looks.fit(small_library)
+    block = pictures(client.get("/api/thumbnails"))
     assert block.shape == (9, 64, 64, 4)
-    assert (block[block[..., 3] == 0] == 0).all()
-    assert (block[block[..., 3] == 1][:, :3] > 0).any()
+    mask = looks.scene.mask()
+    assert_array_equal(block[..., 3], np.broadcast_to(mask, block.shape[:-1]))
+    images = looks.images.clip(0)
+    # A step of the brightest channel's mantissa, which is at least 128 of 256.
+    step = images.max(axis=-1, keepdims=True) / 128
+    assert (np.abs(block[:, mask, :3] - images) <= step + 2.0**-136).all()
+    assert (block[:, ~mask] == 0).all()
 
 
 def test_a_leg_is_that_of_the_package(client: TestClient, small_library: ProceduralLibrary) -> None:
@@ -337,16 +354,17 @@ def test_a_small_table_of_a_recipe_has_the_small_grid_and_its_values(
 
 
 def test_pictures_of_recipes_are_those_of_the_pacing(client: TestClient) -> None:
-    everyone = client.get("/api/thumbnails")
-    all_pictures = halfs(everyone.content, everyone.headers["halfway-shape"]).astype(float)
+    all_pictures = pictures(client.get("/api/thumbnails"))
     alone = {"library": "small", "weights": {"material-3": 1}}
     answer = client.post("/api/thumbnails", json=[alone, recipe_of("linear"), recipe_of("lobes")])
-    own, linear, lobes = halfs(answer.content, answer.headers["halfway-shape"]).astype(float)
-    assert answer.headers["halfway-scale"] == everyone.headers["halfway-scale"] == "1,1,1"
-    assert_allclose(own, all_pictures[3], rtol=2**-10, atol=2**-24)
+    own, linear, lobes = pictures(answer)
+    assert_array_equal(own, all_pictures[3])
     shares = np.array([0.25, 0.5, 0.25])
     summed = np.tensordot(shares, all_pictures[[1, 2, 5]], axes=1)
-    assert_allclose(linear, summed, rtol=2**-9, atol=2**-23)
+    # A step of each one's brightest channel, and of the sum's.
+    brightest = all_pictures.max(axis=-1, keepdims=True)
+    steps = np.tensordot(shares, brightest[[1, 2, 5]], axes=1) + summed.max(axis=-1, keepdims=True)
+    assert (np.abs(linear - summed) <= steps / 128).all()
     assert np.abs(lobes - linear).max() > 2**-6
     assert client.post("/api/thumbnails", json=[]).status_code == 400
 

@@ -9,6 +9,7 @@ from numpy.testing import assert_allclose
 
 from halfway import attributes, mix, reach
 from halfway.instruments import ATTRIBUTES
+from halfway.people import Perception
 from halfway.recipes import Blend, Recipe
 from halfway.server import create_app
 
@@ -43,6 +44,18 @@ def test_without_wishes_it_is_the_material_itself(client: TestClient) -> None:
         assert answer["recipe"]["weights"] == HALF
         table = mix(LIBRARY, Recipe.of("glossy", HALF, blend=blend))
         assert_allclose(answer["attributes"]["gloss60"], attributes(table)["gloss60"], rtol=1e-4)
+
+
+def test_how_people_would_perceive_a_mix_is_that_of_its_table(client: TestClient) -> None:
+    recipe = Recipe.of("glossy", HALF, blend=Blend.LOBES)
+    answer = client.post("/api/perceived", json=recipe.to_json())
+    assert answer.status_code == 200, answer.text
+    has = Perception.of(LIBRARY).perceived(mix(LIBRARY, recipe))
+    got = {each["name"]: each for each in answer.json()["perceived"]}
+    assert list(got) == list(has)
+    for name, (value, trust) in has.items():
+        assert_allclose(got[name]["value"], value, rtol=1e-6)
+        assert got[name]["trust"] == trust
 
 
 @pytest.mark.parametrize("blend", [Blend.LINEAR, Blend.ROOT, Blend.LOBES])

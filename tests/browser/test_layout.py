@@ -10,6 +10,7 @@ from conftest import (  # pyright: ignore[reportMissingImports]
     Explorer,
     served,
 )
+from patience import wait_until
 
 from halfway.library import ProceduralLibrary
 from halfway.models import builtin
@@ -85,3 +86,34 @@ def bottom_of(explorer: Explorer, selector: str) -> float:
 def right_of(explorer: Explorer, selector: str) -> float:
     found = box(explorer, selector)
     return found["x"] + found["width"]
+
+
+def test_the_names_of_compared_rows_stand_below_their_pictures(explorer: Explorer) -> None:
+    explorer.page.set_viewport_size(NARROW)
+    explorer.open("#space=linear&stops=pink-felt,teflon&light=points&compare=paper")
+
+    def overlaps() -> list[float]:
+        return explorer.page.evaluate(PICTURES_UNDER_NAMES)
+
+    # Until the other row has come, the pictures of the one are large.
+    wait_until(lambda: len(now := overlaps()) == 2 and max(now) <= 0, explorer.pause)
+
+
+# How far the pictures of each row reach below the top of the row's name.
+PICTURES_UNDER_NAMES = """() => {
+  const canvas = document.querySelector(".strip canvas");
+  const { left, top } = canvas.getBoundingClientRect();
+  return [...document.querySelectorAll(".strip .names span")].flatMap((name, row, { length }) => {
+    const box = name.getBoundingClientRect();
+    const start = Math.round((row + 0.25) * canvas.clientHeight / length);
+    const { data, width, height } = canvas.getContext("2d").getImageData(
+      Math.round(box.left - left), start, Math.round(box.width), canvas.height - start);
+    let reach = 0;
+    for (let x = 0; x < width; x++) {
+      let y = 0;
+      while (y < height && data[4 * (y * width + x) + 3] > 64) y++;
+      reach = Math.max(reach, y);
+    }
+    return reach ? [top + start + reach - box.top] : [];
+  });
+}"""

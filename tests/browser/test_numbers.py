@@ -1,6 +1,7 @@
 """Materials by numbers: the sliders, what they find, and what they say when no mix has it."""
 
 import json
+import re
 
 from conftest import Explorer  # pyright: ignore[reportMissingImports]
 from numpy.testing import assert_allclose
@@ -72,6 +73,21 @@ def test_what_no_mix_has_is_said_and_the_nearest_is_shown(explorer: Explorer) ->
     expect(page.locator("[data-asked=true]")).to_have_count(0)
     expect(page.locator(".missing")).to_be_empty()
     assert taken(explorer).names == ("cherry-235", "gold-paint")
+
+
+def test_how_people_would_perceive_it_is_a_switch_away(explorer: Explorer) -> None:
+    page = explorer.page
+    page.set_viewport_size(SIZE)
+    explorer.open(HALFWAY)
+    rows = page.locator(".perceived li")
+    expect(rows).to_have_count(0)
+    page.locator(".perceived summary").click()
+    metallic = rows.filter(has_text="metallic")
+    expect(metallic).to_have_attribute("data-trust", re.compile("high|fair|low"))
+    before = metallic.text_content() or ""
+    # It is that of what is shown.
+    explorer.set_t(0)
+    expect(metallic).not_to_have_text(before)
 
 
 def test_another_blend_has_it_too(explorer: Explorer, library: ProceduralLibrary) -> None:

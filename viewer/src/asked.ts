@@ -11,6 +11,19 @@ export interface Asked {
   readonly set: Numbers;
 }
 
+/** What they are called where there is little room. */
+export const LABELS: Readonly<Record<string, string>> = {
+  gloss20: "Gloss, 20°",
+  gloss60: "Gloss, 60°",
+  gloss85: "Gloss, 85°",
+  haze: "Haze",
+  highlight_width: "Highlight",
+  albedo: "Albedo",
+  L: "Lightness L*",
+  a: "a* green, red",
+  b: "b* blue, yellow",
+};
+
 /** What was found, where one of the shortlist is shown. */
 export const FOUND = "found";
 

@@ -1,11 +1,15 @@
-// What the page shows, as what the command line makes: `halfway route` or `halfway mix`, and `halfway render`.
+// What the page shows, as what the command line makes: `halfway route`, `mix` or `find`, and `halfway render`.
 
+import { type Asked, inDigits } from "./asked";
+import { recipeAt } from "./route";
 import type { State } from "./state";
 import { materialName } from "./title";
 
 type Shown = Pick<
   State,
+  | "asked"
   | "held"
+  | "kept"
   | "library"
   | "space"
   | "blend"
@@ -15,6 +19,7 @@ type Shown = Pick<
   | "point"
   | "atPoint"
   | "recipe"
+  | "route"
   | "shape"
   | "mesh"
   | "light"
@@ -24,17 +29,45 @@ type Shown = Pick<
 
 export function toCommand(shown: Shown): string {
   const name = materialName(shown);
-  const { held, library, space, blend, pace, stops, t, point } = shown;
-  const where = `--space ${space} --blend ${blend}`;
-  const source = quoted(library.address);
-  const file = `${name}.${library.grid.some(({ angle }) => angle === "phi_h") ? "zarr" : "binary"}`;
-  if (held) return `halfway mix ${quoted(`${name}.json`)} -o ${quoted(file)} && ${render(shown, file, name)}`;
-  if (point !== null) {
-    const mix = `halfway mix ${source} --point=${point.join(",")} ${where} --clamp -o ${quoted(file)}`;
-    return `${mix} && ${render(shown, file, name)}`;
-  }
-  const way = `${stops.map(quoted).join(" ")} ${where} --pace ${pace} --t ${Number(t.toFixed(4))}`;
-  return `halfway route ${source} ${way} -o ${quoted(name)} && ${render(shown, name, name)}`;
+  const file = `${name}.${suffixOf(shown)}`;
+  if (shown.asked && shown.held) return `${find(shown, shown.asked, file)} && ${render(shown, file, name)}`;
+  if (shown.held)
+    return `halfway mix ${quoted(`${name}.json`)} -o ${quoted(file)} && ${render(shown, file, name)}`;
+  if (shown.point !== null) return `${mix(shown, file)} && ${render(shown, file, name)}`;
+  return `${route(shown, name)} && ${render(shown, name, name)}`;
+}
+
+/** Of a file that holds tables of the library. */
+function suffixOf({ library }: Pick<Shown, "library">): string {
+  return library.grid.some(({ angle }) => angle === "phi_h") ? "zarr" : "binary";
+}
+
+function mix({ library, point, ...where }: Shown, file: string): string {
+  const at = `--point=${(point ?? []).join(",")} ${inSpace(where)}`;
+  return `halfway mix ${quoted(library.address)} ${at} --clamp -o ${quoted(file)}`;
+}
+
+function route({ library, pace, stops, t, ...where }: Shown, folder: string): string {
+  const way = `${stops.map(quoted).join(" ")} ${inSpace(where)} --pace ${pace} --t ${Number(t.toFixed(4))}`;
+  return `halfway route ${quoted(library.address)} ${way} -o ${quoted(folder)}`;
+}
+
+function inSpace({ space, blend }: Pick<Shown, "space" | "blend">): string {
+  return `--space ${space} --blend ${blend}`;
+}
+
+/** What makes the material that it is like comes before, where that is no file and none of the library. */
+function find(shown: Shown, { like, set }: Asked, file: string): string {
+  const { library, held, kept, point, t } = shown;
+  const wishes = Object.entries(set).map(([name, value]) => `--set ${name}=${inDigits(value)}`);
+  const command = (what: string) =>
+    `halfway find ${quoted(library.address)} --like ${quoted(what)} ${wishes.join(" ")} --blend ${held?.recipe.blend} --clamp -o ${quoted(file)}`;
+  if (like !== null) return command(`${kept.find(({ recipe }) => recipe === like)?.name ?? "recipe"}.json`);
+  const near = `like.${suffixOf(shown)}`;
+  if (point !== null) return `${mix(shown, near)} && ${command(near)}`;
+  const [only, ...others] = shown.route ? recipeAt(shown.route, t) : [];
+  if (only && others.length === 0) return command(only.name);
+  return `${route(shown, "like")} && ${command("like/recipes.json:0")}`;
 }
 
 function render({ shape, mesh, light, exposure, grain }: Shown, what: string, name: string): string {

@@ -38,9 +38,10 @@ export function follow(context: Context): void {
 
 /** The small pictures of all materials, which stand in many places. */
 function fetchPictures({ client, store, actions, thumbnails, root }: Context): void {
+  thumbnails.onProblem = (problem) => actions.say("route", "pictures", problem);
   client.thumbnails().then(
-    (block) => {
-      thumbnails.fill(block, root);
+    (pictures) => {
+      thumbnails.fill(pictures, root);
       store.set({ pictured: true });
     },
     (error: Error) => {

@@ -7,7 +7,7 @@ import { toDocument } from "./recipe";
 import { Refined } from "./refined";
 import { recipeAt } from "./route";
 import { blendOf } from "./shown";
-import { GRID, type State } from "./state";
+import { GRID, NUMBERS, type State } from "./state";
 
 /** Attributes that have a slider, in their order. */
 export const SLIDERS = ["gloss60", "haze", "highlight_width", "albedo", "L", "a", "b"];
@@ -28,25 +28,33 @@ export function followNumbers(context: Context): void {
     onBehind: (counting) => store.set({ counting }),
     onProblem: (problem) => actions.say("recipe", "numbers", problem),
   });
-  store.watch(["aside", "asked", "recipe", "route", "atPoint"], (state) => numbers.want(question(state)));
+  store.watch(["aside", "map", "asked", "recipe", "route", "atPoint"], (state) =>
+    numbers.want(question(state)),
+  );
 }
 
 /** Null where nobody wants to know, or what is asked about is not known yet. */
 function question(state: State): Question | null {
-  const { library, aside, asked, recipe, route, t, point, atPoint } = state;
+  const { library, aside, map, asked, recipe, route, t, point, atPoint } = state;
   if (asked === null) {
     const like = toDocument(library.name, recipe, blendOf(state));
-    return aside === "numbers" && recipe.length > 0 ? { like, set: {} } : null;
+    return (aside === "numbers" || map === NUMBERS) && recipe.length > 0 ? { like, set: {} } : null;
   }
   const there = point ? atPoint?.recipe : route && toDocument(library.name, recipeAt(route, t), route.blend);
   const like = asked.like ?? there;
   return like ? { like, set: asked.set } : null;
 }
 
+function needsAttributes({ aside, asked, query, map, tint }: State): boolean {
+  return (
+    [query, tint].some(Boolean) || asked !== null || aside === "numbers" || [GRID, NUMBERS].includes(map)
+  );
+}
+
 function fetchAttributes({ client, store, actions }: Context): void {
   let asked = false;
-  store.watch(["aside", "asked", "query", "map"], ({ aside, asked: numbers, query, map }) => {
-    if (asked || !(aside === "numbers" || numbers || query || map === GRID)) return;
+  store.watch(["aside", "asked", "query", "map", "tint"], (state) => {
+    if (asked || !needsAttributes(state)) return;
     asked = true;
     client.attributes().then(
       ({ attributes }) => store.set({ attributes }),

@@ -73,7 +73,7 @@ function show(
   const context: Context = {
     ...{ root, client, options, store, names, signal: gone.signal },
     actions: new Actions(store),
-    thumbnails: new Thumbnails(names, library.name, client.thumbnailsOf),
+    thumbnails: new Thumbnails(names, library.name, client.thumbnailsOf, gone.signal),
     tables: new Tables(client, toDrawable(library.grid)),
     lights: new Lights(environment),
   };

@@ -13,6 +13,7 @@ const USUAL: Partial<Record<keyof Linked, string>> = {
   grain: "0",
   tone: "none",
   split: "0.5",
+  axes: "gloss60,L,b",
   plot: "lobes",
   aside: "weights",
 };
@@ -37,6 +38,8 @@ export function toHash(linked: Linked): string {
     tone: linked.tone,
     split: short(linked.split, 3),
     map: linked.map,
+    axes: linked.axes.join(","),
+    tint: linked.tint,
     plot: linked.plot,
     aside: linked.aside,
     // What was found like one of the shortlist stays with the person who has it.
@@ -81,6 +84,8 @@ export function fromHash(hash: string, library: LibrarySummary): Partial<Linked>
     tone: oneOf("tone", TONES),
     split: number("split", 0, 1),
     map: fields.get("map") || undefined,
+    axes: toAxes(list("axes")),
+    tint: fields.get("tint") || undefined,
     plot: oneOf("plot", PLOTS),
     aside: oneOf("aside", ASIDES),
     asked: toAsked(list("asked")),
@@ -109,6 +114,11 @@ function toAsked(parts: readonly string[]): Asked | undefined {
     .map(([name = "", value]) => [name, Number.parseFloat(value ?? "")] as const);
   if (pairs.length === 0 || !pairs.every(([, value]) => Number.isFinite(value))) return undefined;
   return { like: null, set: Object.fromEntries(pairs) };
+}
+
+function toAxes(names: readonly string[]): Linked["axes"] | undefined {
+  const [x, y, z] = names;
+  return x && y && z ? [x, y, z] : undefined;
 }
 
 function toOrbit(numbers: readonly number[]): Orbit | undefined {

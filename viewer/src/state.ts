@@ -48,6 +48,9 @@ export interface State extends View {
   readonly ownLight: string | null;
   /** The map of the space that is shown, and the plot of the BRDF. */
   readonly map: string;
+  /** The attributes that are the axes of the map of numbers; and the one that colours stand for, "" for none. */
+  readonly axes: readonly [string, string, string];
+  readonly tint: string;
   readonly plot: PlotKind;
   readonly theme: Theme;
   /** What the theme comes to here and now. */
@@ -126,12 +129,15 @@ export type Pointed = Ghost | { readonly point: readonly number[] };
 /** The map on which the materials stand side by side. */
 export const GRID = "Grid";
 
+/** The map whose axes are attributes. */
+export const NUMBERS = "Numbers";
+
 /** Where a person is in the library's spaces, but for t: what undo goes back to. */
 export type Whereabouts = Pick<State, "space" | "blend" | "pace" | "stops" | "point">;
 
 /** What a link carries. */
 // biome-ignore format: it is one list.
-export const LINKED = ["space", "blend", "pace", "stops", "t", "point", "compare", "shape", "light", "turn", "grain", "exposure", "tone", "orbit", "split", "map", "plot", "aside", "asked"] as const;
+export const LINKED = ["space", "blend", "pace", "stops", "t", "point", "compare", "shape", "light", "turn", "grain", "exposure", "tone", "orbit", "split", "map", "axes", "tint", "plot", "aside", "asked"] as const;
 export type Linked = Pick<State, (typeof LINKED)[number]>;
 
 /** Where a link does not say. */
@@ -144,6 +150,8 @@ const USUAL = {
   tone: "none",
   split: 0.5,
   map: "",
+  axes: ["gloss60", "L", "b"],
+  tint: "",
   plot: "lobes",
   exposure: 0,
   orbit: HOME,

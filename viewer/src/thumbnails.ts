@@ -1,14 +1,15 @@
 // Small pictures of all materials, mixed on the processor: a recipe's picture before any table has come.
 
-import type { Block, Client } from "./api/client";
+import type { Client, Pictures } from "./api/client";
 import type { RecipeDocument } from "./api/schema";
 import { LINEAR } from "./blend";
-import { HALF } from "./brdf/half";
 import { toByte } from "./colour";
 import { el } from "./dom";
+import { pauseAfter } from "./paced";
 import { type Ingredient, toDocument } from "./recipe";
+import { addTo, toScreen, valueAt } from "./rgbe";
 
-/** Pictures of mixes that are asked for together, and that are kept: 64 KB each. */
+/** Pictures of mixes that are asked for together, and that are kept: 16 KB each. */
 const AT_ONCE = 64;
 const MAX_MIXES = 256;
 /** Blocks along a side, to tell pictures apart by. */
@@ -16,57 +17,62 @@ const COARSE = 8;
 
 export class Thumbnails {
   size = 64;
-  private byName: ReadonlyMap<string, Float32Array> = new Map();
-  private readonly averaged = new Map<string, Float64Array>();
+  /** Told what failed, and null when it did not. */
+  onProblem: (problem: string | null) => void = () => {};
+  private byName: ReadonlyMap<string, Uint8Array> = new Map();
+  private readonly averaged = new Map<string, Float32Array>();
 
   /** Pictures of mixes that are not made of the materials' own, those asked for last at the end; null: being made. */
-  private readonly mixes = new Map<string, Float32Array | null>();
+  private readonly mixes = new Map<string, Uint8Array | null>();
   /** Those to be asked for, and who waits for them. */
   private missing: RecipeDocument[] = [];
   private readonly waiting = new Set<() => void>();
+  private failures = 0;
 
   constructor(
     private readonly names: readonly string[],
     private readonly library: string,
     private readonly make: Client["thumbnailsOf"],
+    private readonly gone: AbortSignal,
   ) {}
 
   /** The pictures have come: those that stand on the page already are painted. */
-  fill(block: Block, root: HTMLElement): void {
-    const [, size = 0] = block.shape;
+  fill(pictures: Pictures, root: HTMLElement): void {
+    const [, size = 0] = pictures.shape;
     this.size = size;
-    const n = 4 * size * size;
-    this.byName = new Map(this.names.map((name, i) => [name, pictureIn(block, i, n)]));
+    this.byName = new Map(this.names.map((name, i) => [name, pictureIn(pictures, i, size)]));
     for (const canvas of root.querySelectorAll<HTMLCanvasElement>("canvas.thumbnail"))
       this.paint(canvas, canvas.dataset.material!);
   }
 
   /** The picture of a recipe, ready for a canvas; until it is made the linear one stands in, and `then` runs when it is. */
   picture(recipe: readonly Ingredient[], blend: string = LINEAR, then: () => void = () => {}): ImageData {
-    const n = 4 * this.size * this.size;
-    const sum =
-      (blend !== LINEAR && recipe.length > 1 && this.ofMix(recipe, blend, then)) || this.sum(recipe);
-    const bytes = new Uint8ClampedArray(n);
-    for (let i = 0; i < n; i += 4) {
-      bytes[i] = toByte(sum[i]!);
-      bytes[i + 1] = toByte(sum[i + 1]!);
-      bytes[i + 2] = toByte(sum[i + 2]!);
-      bytes[i + 3] = Math.round(255 * this.edge(i / 4) * (sum[i + 3]! > 0 ? 1 : 0));
-    }
+    const own = this.ofMix(recipe, blend, then);
+    return this.disc(own ? toScreen(own) : this.sum(recipe));
+  }
+
+  of(name: string): ImageData {
+    const picture = this.byName.get(name) ?? new Uint8Array(4 * this.size * this.size);
+    return this.disc(toScreen(picture));
+  }
+
+  private disc(bytes: Uint8ClampedArray<ArrayBuffer>): ImageData {
+    for (let i = 3; i < bytes.length; i += 4) bytes[i]! *= this.edge((i - 3) / 4);
     return new ImageData(bytes, this.size, this.size);
   }
 
-  private sum(recipe: readonly Ingredient[]): Float32Array {
+  private sum(recipe: readonly Ingredient[]): Uint8ClampedArray<ArrayBuffer> {
     const sum = new Float32Array(4 * this.size * this.size);
     for (const { name, weight } of recipe) {
       const part = this.byName.get(name);
-      if (part !== undefined) add(sum, part, weight);
+      if (part !== undefined) addTo(sum, part, weight);
     }
-    return sum;
+    return Uint8ClampedArray.from(sum, (x, i) => (i % 4 === 3 ? 255 * x : toByte(x)));
   }
 
-  /** The picture of a mix; null when it is not there, and is asked for. */
-  private ofMix(recipe: readonly Ingredient[], blend: string, then: () => void): Float32Array | null {
+  /** The picture of a mix; null where it is the sum of its materials', or is not there, and is asked for. */
+  private ofMix(recipe: readonly Ingredient[], blend: string, then: () => void): Uint8Array | null {
+    if (blend === LINEAR || recipe.length < 2) return null;
     const document = toDocument(this.library, recipe, blend);
     const key = JSON.stringify(document);
     const known = this.mixes.get(key) ?? null;
@@ -84,30 +90,53 @@ export class Thumbnails {
     if (this.missing.length) queueMicrotask(() => void this.ask());
     const keys = asked.map((document) => JSON.stringify(document));
     try {
-      const block = await this.make(asked);
+      const pictures = await this.make(asked);
       keys.forEach((key, i) => {
-        this.mixes.set(key, pictureIn(block, i, 4 * this.size * this.size));
+        this.mixes.set(key, pictureIn(pictures, i, this.size));
       });
-    } catch {
-      // The linear picture stays; who draws again asks again.
-      for (const key of keys) this.mixes.delete(key);
+    } catch (error) {
+      this.fail(keys, error as Error);
       return;
     }
+    this.failures = 0;
+    this.onProblem(null);
     for (const [key] of [...this.mixes].slice(0, -MAX_MIXES)) this.mixes.delete(key);
+    this.drawAgain();
+  }
+
+  /** The linear pictures stay, until who waits draws again and so asks again: later each time that it fails. */
+  private fail(keys: readonly string[], { name, message }: Error): void {
+    if (this.gone.aborted || name === "AbortError") return;
+    this.onProblem(`Small pictures of mixes did not come (${message}): they are asked for again.`);
+    const again = () => {
+      for (const key of keys) this.mixes.delete(key);
+      if (!this.gone.aborted) this.drawAgain();
+    };
+    setTimeout(again, pauseAfter(this.failures++));
+  }
+
+  private drawAgain(): void {
     const waiting = [...this.waiting];
     this.waiting.clear();
     for (const then of waiting) then();
   }
 
   /** How different two recipes look: the distance of their pictures' blocks, in about the scale of lightness. */
-  distance(a: readonly Ingredient[], b: readonly Ingredient[]): number {
-    const [x, y] = [a, b].map((each) => this.blocks(each, COARSE));
-    return Math.hypot(...x!.map((value, i) => Math.cbrt(value) - Math.cbrt(y![i]!)));
+  distance(a: readonly Ingredient[], b: readonly Ingredient[], blend: string = LINEAR): number {
+    const [x, y] = [this.blocks(a, COARSE), this.blocks(b, COARSE, blend)];
+    return Math.hypot(...x.map((value, i) => Math.cbrt(value) - Math.cbrt(y[i]!)));
   }
 
-  /** The picture of a recipe averaged to `n` x `n` blocks, linear RGB one after another. */
-  blocks(recipe: readonly Ingredient[], n: number): Float64Array {
-    const sum = new Float64Array(3 * n * n);
+  /** The picture of a recipe averaged to `n` x `n` blocks, linear RGB one after another; of another blend as `picture`. */
+  blocks(
+    recipe: readonly Ingredient[],
+    n: number,
+    blend: string = LINEAR,
+    then: () => void = () => {},
+  ): Float32Array {
+    const own = this.ofMix(recipe, blend, then);
+    if (own) return this.average(own, n);
+    const sum = new Float32Array(3 * n * n);
     for (const { name, weight } of recipe) {
       const part = this.blocksOf(name, n);
       for (let i = 0; i < sum.length; i++) sum[i]! += weight[i % 3]! * part[i]!;
@@ -121,10 +150,6 @@ export class Thumbnails {
     return [...this.blocks(recipe, 1)].map((x) => (4 / Math.PI) * x);
   }
 
-  of(name: string): ImageData {
-    return this.picture([{ name, weight: [1, 1, 1] }]);
-  }
-
   /** A canvas with the picture of one material. */
   canvas(name: string): HTMLCanvasElement {
     const canvas = el("canvas.thumbnail", { "data-material": name });
@@ -132,24 +157,30 @@ export class Thumbnails {
     return canvas;
   }
 
-  private paint(canvas: HTMLCanvasElement, name: string): void {
+  paint(canvas: HTMLCanvasElement, name: string): void {
     canvas.width = canvas.height = this.size;
     canvas.getContext("2d")!.putImageData(this.of(name), 0, 0);
   }
 
-  private blocksOf(name: string, n: number): Float64Array {
+  private blocksOf(name: string, n: number): Float32Array {
     const key = `${n} ${name}`;
     const known = this.averaged.get(key);
     if (known !== undefined) return known;
     const picture = this.byName.get(name);
-    const blocks = new Float64Array(3 * n * n);
+    if (picture === undefined) return new Float32Array(3 * n * n);
+    const blocks = this.average(picture, n);
+    this.averaged.set(key, blocks);
+    return blocks;
+  }
+
+  private average(picture: Uint8Array, n: number): Float32Array {
+    const blocks = new Float32Array(3 * n * n);
     const share = (n / this.size) ** 2;
-    for (let pixel = 0; picture !== undefined && pixel < this.size * this.size; pixel++) {
+    for (let pixel = 0; pixel < this.size * this.size; pixel++) {
       const x = Math.floor(((pixel % this.size) * n) / this.size);
       const y = Math.floor((Math.floor(pixel / this.size) * n) / this.size);
-      for (let c = 0; c < 3; c++) blocks[3 * (y * n + x) + c]! += share * picture[4 * pixel + c]!;
+      for (let c = 0; c < 3; c++) blocks[3 * (y * n + x) + c]! += share * valueAt(picture, pixel, c);
     }
-    if (picture !== undefined) this.averaged.set(key, blocks);
     return blocks;
   }
 
@@ -162,19 +193,8 @@ export class Thumbnails {
   }
 }
 
-/** The i-th picture of `n` numbers. */
-function pictureIn({ halfs, scale }: Block, i: number, n: number): Float32Array {
-  return Float32Array.from(
-    halfs.subarray(i * n, (i + 1) * n),
-    (bits, j) => HALF[bits]! * (j % 4 === 3 ? 1 : scale[j % 4]!),
-  );
-}
-
-function add(sum: Float32Array, part: Float32Array, [r, g, b]: Ingredient["weight"]): void {
-  for (let i = 0; i < sum.length; i += 4) {
-    sum[i]! += r * part[i]!;
-    sum[i + 1]! += g * part[i + 1]!;
-    sum[i + 2]! += b * part[i + 2]!;
-    sum[i + 3] = part[i + 3]!;
-  }
+/** The i-th of the pictures. */
+function pictureIn({ bytes }: Pictures, i: number, size: number): Uint8Array {
+  const n = 4 * size * size;
+  return bytes.subarray(i * n, (i + 1) * n);
 }

@@ -2,6 +2,7 @@ import { expect, test } from "vitest";
 
 import type { LibrarySummary } from "../src/api/schema";
 import { toCommand } from "../src/command";
+import { join } from "../src/route";
 import { fromText, keptOf, missingIn, toText } from "../src/shortlist";
 import { materialName } from "../src/title";
 
@@ -12,6 +13,16 @@ const LIBRARY = {
   grid: [{ angle: "theta_h" }],
   materials: ["a", "b", "c"].map((name) => ({ name })),
 } as unknown as LibrarySummary;
+const WEIGHTS = [
+  [1, 0],
+  [0, 1],
+];
+const LEG = {
+  names: ["a", "b"],
+  knots: [0, 1],
+  weights: { r: WEIGHTS, g: WEIGHTS, b: WEIGHTS },
+  paces: { uniform: { t: [0, 1], length: [0, 1] } },
+};
 const ON_ROUTE = {
   library: LIBRARY,
   space: "paper",
@@ -22,6 +33,9 @@ const ON_ROUTE = {
   point: null,
   atPoint: null,
   held: null,
+  asked: null,
+  kept: [],
+  route: null,
   recipe: [
     { name: "a", weight: [0.75, 0.75, 0.75] },
     { name: "b", weight: [0.25, 0.25, 0.25] },
@@ -56,6 +70,31 @@ test("a material that is turned is rendered so, and a table that depends on phi_
     "halfway mix 'my files/lab.brdflib' --point=1,-2 --space paper --blend root --clamp -o a-to-b-0.250.zarr" +
       " && halfway render a-to-b-0.250.zarr --scene spheres --env studio --turn -37 -o a-to-b-0.250.png",
   );
+});
+
+test("what was found for numbers is made by find, like a place on a route, a point, a material or a file", () => {
+  const recipe = { library: "lab", blend: "lobes", weights: { a: 0.5, b: 0.5 } };
+  const held = { id: "found", name: "t, haze 2", note: "", recipe, link: "" };
+  const asked = { like: null, set: { haze: 2, L: 41.234 } };
+  const shown = { ...ON_ROUTE, held, asked } as const;
+  const wished = "--set haze=2 --set L=41.2 --blend lobes --clamp -o 't, haze 2.binary'";
+  const [made, , rendered] = toCommand(shown).split(/ && (?=halfway (find|render))/);
+  expect(made).toBe(
+    "halfway route 'my files/lab.brdflib' a b --space paper --blend root --pace uniform --t 0.25 -o like",
+  );
+  expect(toCommand(shown)).toContain(
+    `&& halfway find 'my files/lab.brdflib' --like like/recipes.json:0 ${wished} && halfway render`,
+  );
+  expect(rendered).toBeDefined();
+  expect(toCommand({ ...shown, point: [1] })).toMatch(
+    /^halfway mix .* -o like.binary && .* --like like.binary/,
+  );
+  const route = { ...join([LEG], "uniform", ["a", "b"]), blend: "root" };
+  expect(toCommand({ ...shown, t: 0, route })).toMatch(
+    /^halfway find 'my files\/lab.brdflib' --like a --set/,
+  );
+  const kept = [{ ...held, id: "1", name: "lid" }];
+  expect(toCommand({ ...shown, kept, asked: { ...asked, like: recipe } })).toContain("--like lid.json");
 });
 
 test("one material alone is called by its name", () => {

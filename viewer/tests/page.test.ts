@@ -69,6 +69,8 @@ test("a link comes back to the same view", () => {
     orbit: { azimuth: 0.5, elevation: -0.25, zoom: 2 },
     split: 0.25,
     map: "Scores",
+    axes: ["albedo", "L", "haze"],
+    tint: "gloss60",
     plot: "albedo",
     aside: "numbers",
     asked: { like: null, set: { gloss60: 12.5, b: -3 } },

@@ -7,9 +7,10 @@
     POST /api/position                           the recipe at a point of a space
     GET  /api/attributes                         the attributes of all materials
     POST /api/find                               the recipe that is like another and has some attributes
+    POST /api/perceived                          how people would perceive a recipe
     GET  /api/tables/{material}                  a table as half floats (`blocks`)
     POST /api/mix                                the table of a recipe, as half floats; ?small=true: a small one
-    GET  /api/thumbnails                         small pictures of all materials, as half floats
+    GET  /api/thumbnails                         small pictures of all materials, with shared exponents
     POST /api/thumbnails                         such pictures of recipes
     GET  /api/environment                        the studio, as half floats
     POST /api/export/{format}                    a recipe's file (`taking`)
@@ -47,6 +48,7 @@ from .schema import (
     LegView,
     LibrarySummary,
     NotYet,
+    PerceptionView,
     Point,
     PositionView,
     Problem,
@@ -139,6 +141,10 @@ def _add_queries(app: FastAPI, explorer: Explorer) -> None:
     def find(wanted: Wanted) -> FoundView:
         return explorer.find(wanted)
 
+    @app.post("/api/perceived")
+    def perceived(recipe: RecipeDocument) -> PerceptionView:
+        return explorer.perceived(recipe)
+
     @app.post("/api/export/{format}", response_class=Response, responses=BYTES)
     def export(format: Name, recipe: RecipeDocument) -> StreamingResponse:
         parts, summary = explorer.export(format, recipe)
@@ -160,7 +166,7 @@ def _add_queries(app: FastAPI, explorer: Explorer) -> None:
 def _add_blocks(app: FastAPI, explorer: Explorer) -> None:
     def answer(request: Request, of: Callable[[], Block]) -> Response:
         # The checksum names every sample of the library, so an answer that the browser kept is good.
-        etag = f'"{explorer.library.checksum[:16]}-1"'
+        etag = f'"{explorer.library.checksum[:16]}-2"'
         if request.headers.get("if-none-match") == etag:
             return _unchanged(etag, REVALIDATED)
         block = of()

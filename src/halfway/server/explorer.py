@@ -23,6 +23,7 @@ from ..errors import HalfwayError, RecipeError, SpaceError
 from ..halfdiff import Grid
 from ..library import Joined, Library
 from ..look import Looks, small_grid
+from ..people import Perception
 from ..recipes import Blend, Mixer, Recipe
 from ..render import SCENES, studio
 from ..space import PACES, SPACES, Embedding, Route, Scores, Space, lengths, make_space
@@ -30,7 +31,7 @@ from ..space import route as route_through
 from ..tasks import HERE, Work
 from .blocks import Block
 from .drawable import bytes_on_card, coarsened, drawn, drawn_grid
-from .finding import attributes_view, found_view
+from .finding import attributes_view, found_view, perception_view
 from .making import Once, Progress
 from .schema import (
     AttributesView,
@@ -41,6 +42,7 @@ from .schema import (
     LibrarySummary,
     Material,
     PaceView,
+    PerceptionView,
     Point,
     PointLight,
     PositionView,
@@ -88,6 +90,7 @@ class Explorer:
         self.library = library
         progress = self._progress
         self._looks = Once(partial(Looks.fit, library, work=self._work), progress)
+        self._thumbnails = Once(self._all_spheres, progress)
         self._spaces = {
             (name, blend): Once(
                 partial(self._make, name, library, blend=blend, work=self._work), progress
@@ -101,10 +104,12 @@ class Explorer:
         self._mixer = Mixer(library, n_rows=12)
         control = partial(Control.of, library, mixer=self._mixer, work=self._work)
         self._control = Once(control, progress)
+        self._perception = Once(partial(Perception.of, library, work=self._work), progress)
 
     def warm(self) -> None:
         """Compute what the first route needs: compiled metrics and solvers take a second to load."""
         with suppress(HalfwayError):  # said to whoever asks
+            self._thumbnails.get(None)
             pictures = self._looks.get(None)
             name, kind = next(iter(SPACES.items()))
             space = self._spaces[name, kind.usual_blend].get(None)
@@ -181,6 +186,11 @@ class Explorer:
         """The recipe that has what is wanted, or misses least of it."""
         return found_view(self._control.get(self._patience), self._recipe(wanted.like), wanted)
 
+    def perceived(self, document: RecipeDocument) -> PerceptionView:
+        """How people would perceive a recipe."""
+        perception = self._perception.get(self._patience)
+        return perception_view(perception, self._mixer.mix(self._recipe(document)))
+
     def table(self, name: str) -> Block:
         """The table of one material."""
         return self._block(name)
@@ -195,8 +205,8 @@ class Explorer:
         return Block.of_table(TabularBrdf(values.reshape(3, *tables.grid.shape), tables.grid))
 
     def thumbnails(self) -> Block:
-        """Pictures of all materials on a lit sphere, (N, size, size, RGBA), linear, black beside the sphere."""
-        return self._spheres(self.pictures.images)
+        """Pictures of all materials on a lit sphere, linear (`Block.of_pictures`)."""
+        return self._thumbnails.get(self._patience)
 
     def thumbnails_of(self, documents: Sequence[RecipeDocument]) -> Block:
         """Such pictures of recipes.
@@ -214,11 +224,14 @@ class Explorer:
         mixes = [self.pictures.mix(self._weights(each), each.blend) for each in recipes]
         return self._spheres(np.concatenate(mixes))
 
+    def _all_spheres(self) -> Block:
+        block = self._spheres(self._looks.get(None).images)
+        # Two seconds for thousands: before they are asked for.
+        _ = block.packed
+        return block
+
     def _spheres(self, images: np.ndarray) -> Block:
-        mask = self.pictures.scene.mask()
-        pictures = np.zeros((len(images), *mask.shape, 3), np.float32)
-        pictures[:, mask] = images.clip(0)
-        return Block.of(pictures, np.broadcast_to(mask, pictures.shape[:-1]))
+        return Block.of_pictures(images, self._looks.get(None).scene.mask())
 
     def environment(self) -> Block:
         """The studio of soft boxes as a latitude-longitude picture; the top row looks up, the middle column to +y."""

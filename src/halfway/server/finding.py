@@ -6,10 +6,20 @@ from typing import Any
 
 import numpy as np
 
+from ..brdf import TabularBrdf
 from ..control import Control, Wishes
 from ..instruments import ATTRIBUTES, Attribute, attribute
+from ..people import Perception
 from ..recipes import Recipe
-from .schema import AttributesView, AttributeView, FoundView, RecipeDocument, Wanted
+from .schema import (
+    AttributesView,
+    AttributeView,
+    FoundView,
+    PerceivedView,
+    PerceptionView,
+    RecipeDocument,
+    Wanted,
+)
 
 _NUMBERS = [each for each in ATTRIBUTES.values() if each.is_number]
 
@@ -43,6 +53,14 @@ def found_view(control: Control, like: Recipe, wanted: Wanted) -> FoundView:
         recipe=RecipeDocument.model_validate(recipe.to_json()),
         attributes={each.name: _or_none(has[each.name]) for each in _NUMBERS},
         ranges=_ranges(control, wanted, has),
+    )
+
+
+def perception_view(perception: Perception, table: TabularBrdf) -> PerceptionView:
+    """How people would perceive a material."""
+    each = perception.perceived(table).items()
+    return PerceptionView(
+        perceived=[PerceivedView(name=name, value=one.value, trust=one.trust) for name, one in each]
     )
 
 

@@ -234,6 +234,22 @@ class FoundView(Model):
     """How far each goes with the others held, of linear mixes; without those that no mix has beside them."""
 
 
+class PerceivedView(Model):
+    """How a material is perceived in one respect; see `halfway.people.Perceived`."""
+
+    name: str
+    value: float
+    """About 0, not at all, to 1, very."""
+    trust: str
+    """high, fair or low."""
+
+
+class PerceptionView(Model):
+    """How people would perceive a recipe."""
+
+    perceived: list[PerceivedView]
+
+
 class Added(Model):
     """A measurement that is a material of the library now."""
 
@@ -241,7 +257,7 @@ class Added(Model):
 
 
 class BlockFile(Model):
-    """What a file of half floats holds."""
+    """What a file of numbers holds; see `halfway.server.blocks`."""
 
     shape: list[int]
     scale: Vector

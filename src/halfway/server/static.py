@@ -8,7 +8,7 @@
         data/legs/NAME/I-J.json     the way from material I to material J, I < J        schema.LegView
         data/attributes.json        the attributes of all materials                     schema.AttributesView
         data/tables/I.bin           a table as half floats (`blocks`), gzip; so are
-        data/thumbnails.bin, data/environment.bin
+        data/thumbnails.bin, data/environment.bin       bytes with exponents, and half floats
 
 Materials and spaces are called by number in paths, so a name may hold any letters. The folder is the explorer of a library of
 these materials alone: the spaces are theirs, and no recipe needs another.

@@ -5,6 +5,7 @@ import type {
   FoundView,
   LegView,
   LibrarySummary,
+  PerceptionView,
   PositionView,
   ProgressView,
   RecipeDocument,
@@ -32,6 +33,13 @@ export interface Block {
   readonly halfs: Uint16Array<ArrayBuffer>;
   readonly shape: readonly number[];
   readonly scale: readonly [number, number, number];
+}
+
+/** Small pictures with shared exponents: see `rgbe`. */
+export interface Pictures {
+  readonly bytes: Uint8Array<ArrayBuffer>;
+  /** How many, rows, columns, 4. */
+  readonly shape: readonly number[];
 }
 
 /** A file, and a line on how well it stands for the table where it is not the table. */
@@ -63,14 +71,16 @@ export interface Client {
   readonly attributes: () => Promise<AttributesView>;
   /** The recipe that is like another and has some attributes; who cannot has no such function. */
   readonly find?: (wanted: Wanted, signal: AbortSignal) => Promise<FoundView>;
-  readonly thumbnails: () => Promise<Block>;
+  /** How people would perceive a recipe; who cannot has no such function. */
+  readonly perceived?: (recipe: RecipeDocument, signal: AbortSignal) => Promise<PerceptionView>;
+  readonly thumbnails: () => Promise<Pictures>;
   readonly environment: () => Promise<Block>;
   /** One material's table; `onProgress` is told the share that has come, in [0, 1]. */
   readonly table: (name: string, onProgress?: (share: number) => void) => Promise<Block>;
   /** The table of a recipe, in full or small (the library's `small_grid`). */
   readonly mixed: (recipe: RecipeDocument, small: boolean, signal: AbortSignal) => Promise<Block>;
   /** Pictures of recipes, as those of the materials. */
-  readonly thumbnailsOf: (recipes: readonly RecipeDocument[]) => Promise<Block>;
+  readonly thumbnailsOf: (recipes: readonly RecipeDocument[]) => Promise<Pictures>;
   /** A recipe's file, in one of the library's `exports`. */
   readonly exported: (format: string, recipe: RecipeDocument) => Promise<Exported>;
   /** Takes a file of a measurement in, as a material of the library from now on; who cannot has no such function. */

@@ -32,7 +32,10 @@ export function files(base: string): Client {
       return position(await spaceView(space), charts, (await folder()).library.name, await names(), point);
     },
     attributes: () => json("attributes.json"),
-    thumbnails: async () => block(`${base}thumbnails.bin`, (await folder()).thumbnails),
+    thumbnails: async () => ({
+      bytes: new Uint8Array(await unpacked(`${base}thumbnails.bin`)),
+      shape: (await folder()).thumbnails.shape,
+    }),
     environment: async () => block(`${base}environment.bin`, (await folder()).environment),
     table: async (name, onProgress) => {
       const i = (await names()).indexOf(name);
@@ -74,9 +77,12 @@ async function block(
   { shape, scale }: BlockFile,
   onProgress?: (share: number) => void,
 ): Promise<Block> {
+  return { halfs: new Uint16Array(await unpacked(path, onProgress)), shape, scale };
+}
+
+async function unpacked(path: string, onProgress?: (share: number) => void): Promise<ArrayBuffer> {
   const packed = await read(await fetched(path), onProgress);
-  const unpacked = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
-  return { halfs: new Uint16Array(await new Response(unpacked).arrayBuffer()), shape, scale };
+  return new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
 }
 
 async function fetched(path: string): Promise<Response> {

@@ -49,6 +49,7 @@ export function patient(
     at: again(client.at),
     attributes: again(client.attributes),
     ...(client.find && { find: again(client.find) }),
+    ...(client.perceived && { perceived: again(client.perceived) }),
     thumbnails: again(client.thumbnails),
     environment: again(client.environment),
     mixed: again(client.mixed),

@@ -1,7 +1,7 @@
 // The server's API as a `Client`, over anything that carries requests: see halfway.server.app.
 // A mistake comes back as {"error": "one line"} and is thrown as a `Problem`.
 
-import { type Block, type Client, Later, Problem } from "./client";
+import { type Block, type Client, Later, type Pictures, Problem } from "./client";
 import type { Added, NotYet } from "./schema";
 
 export interface Request {
@@ -39,9 +39,10 @@ export function clientOver(ask: Ask): Client {
       json(await post("api/position", { space, blend, point }, signal)),
     attributes: async () => json(await get("api/attributes")),
     find: async (wanted, signal) => json(await post("api/find", wanted, signal)),
+    perceived: async (recipe, signal) => json(await post("api/perceived", recipe, signal)),
     mixed: async (recipe, small, signal) => block(await post(`api/mix?small=${small}`, recipe, signal)),
-    thumbnailsOf: async (recipes) => block(await post("api/thumbnails", recipes)),
-    thumbnails: async () => block(await get("api/thumbnails")),
+    thumbnailsOf: async (recipes) => pictures(await post("api/thumbnails", recipes)),
+    thumbnails: async () => pictures(await get("api/thumbnails")),
     environment: async () => block(await get("api/environment")),
     table: async (name, onProgress = () => {}) =>
       block(await said(ask, { method: "GET", path: `api/tables/${encodeURIComponent(name)}`, onProgress })),
@@ -74,10 +75,17 @@ function json<T>({ body }: Answer): T {
   return JSON.parse(new TextDecoder().decode(body)) as T;
 }
 
-function block({ headers, body }: Answer): Block {
-  const numbers = (header: string) => (headers.get(header) ?? "").split(",").map(Number);
-  const [r = 1, g = 1, b = 1] = numbers("halfway-scale");
-  return { halfs: new Uint16Array(body), shape: numbers("halfway-shape"), scale: [r, g, b] };
+function block(answer: Answer): Block {
+  const [r = 1, g = 1, b = 1] = numbers(answer, "halfway-scale");
+  return { halfs: new Uint16Array(answer.body), shape: numbers(answer, "halfway-shape"), scale: [r, g, b] };
+}
+
+function pictures(answer: Answer): Pictures {
+  return { bytes: new Uint8Array(answer.body), shape: numbers(answer, "halfway-shape") };
+}
+
+function numbers({ headers }: Answer, header: string): number[] {
+  return (headers.get(header) ?? "").split(",").map(Number);
 }
 
 function errorIn(answer: Answer): string | undefined {

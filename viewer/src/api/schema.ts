@@ -162,12 +162,24 @@ export interface FoundView {
   readonly ranges: Readonly<Record<string, readonly [number, number]>>;
 }
 
+/** How a material is perceived in one respect; see `halfway.people.Perceived`. */
+export interface PerceivedView {
+  readonly name: string;
+  readonly value: number;
+  readonly trust: string;
+}
+
+/** How people would perceive a recipe. */
+export interface PerceptionView {
+  readonly perceived: readonly PerceivedView[];
+}
+
 /** A measurement that is a material of the library now. */
 export interface Added {
   readonly name: string;
 }
 
-/** What a file of half floats holds. */
+/** What a file of numbers holds; see `halfway.server.blocks`. */
 export interface BlockFile {
   readonly shape: readonly number[];
   readonly scale: readonly [number, number, number];

@@ -1,8 +1,8 @@
 // The materials by what they look like: those that look alike are close, whatever their scores.
 //
 // A material's small picture, averaged to blocks and coded by the cube root (about as CIELAB codes lightness), is a vector; the
-// map is its first three principal components over the library. A mix is drawn where its own picture is, so a route that makes a
-// detour through other colours is seen to make it.
+// map is its first three principal components over the library. A mix is drawn where its own picture is, in its own blend, so a
+// route that makes a detour through other colours is seen to make it.
 
 import { Vector3 } from "three";
 
@@ -36,12 +36,12 @@ export class Appearance implements SpaceMap {
     this.points = points.map((p) => p.multiplyScalar(this.scale));
   }
 
-  pointOf(recipe: readonly Ingredient[]): Vector3 {
-    return this.project(this.centred(this.code(recipe))).multiplyScalar(this.scale);
+  pointOf(recipe: readonly Ingredient[], blend: string, then: () => void): Vector3 {
+    return this.project(this.centred(this.code(recipe, blend, then))).multiplyScalar(this.scale);
   }
 
-  private code(recipe: readonly Ingredient[]): Float64Array {
-    return this.thumbnails.blocks(recipe, BLOCKS).map((x) => Math.cbrt(Math.max(x, 0)));
+  private code(recipe: readonly Ingredient[], blend?: string, then?: () => void): Float64Array {
+    return Float64Array.from(this.thumbnails.blocks(recipe, BLOCKS, blend, then), Math.cbrt);
   }
 
   private centred(vector: Float64Array): Float64Array {

@@ -10,7 +10,7 @@ import type { Thumbnails } from "../thumbnails";
 import { turnArm, widen } from "./camera";
 import { toRenderer } from "./card";
 import type { SpaceMap } from "./maps";
-import { type Look, Spheres } from "./spheres";
+import { type Look, Spheres, type Tints } from "./spheres";
 
 type Segment = readonly [THREE.Vector3, THREE.Vector3];
 
@@ -19,6 +19,8 @@ const FOV = 32;
 /** Of the route's line and of a crossing, in CSS pixels. */
 const WIDTH = 2.5;
 const DOT = 3.5;
+/** From where the whole of it is seen. */
+const HOME = new THREE.Vector3(1.2, -5.3, 0.7);
 /** How much wider than a sphere one may point at it, in CSS pixels. */
 const MARGIN = 2;
 
@@ -47,14 +49,17 @@ export class Cloud {
   constructor(canvas: HTMLCanvasElement, names: readonly string[], thumbnails: Thumbnails) {
     this.renderer = toRenderer({ canvas, alpha: true, antialias: true });
     this.camera.up.set(0, 0, 1);
-    this.camera.position.set(1.2, -5.3, 0.7);
+    this.camera.position.copy(HOME);
     this.controls = new OrbitControls(this.camera, canvas);
     // Upwards and downwards a finger moves the page.
     canvas.style.touchAction = "pan-y";
     this.controls.enableDamping = false;
-    this.controls.minDistance = 0.6;
+    // So every material can be come near to, also in the middle of thousands.
+    this.controls.zoomToCursor = true;
+    this.controls.minDistance = 0.25;
     this.controls.maxDistance = 14;
     this.spheres = new Spheres(names, thumbnails);
+    canvas.addEventListener("webglcontextrestored", () => this.spheres.paint());
     const backToFront = [
       this.axes,
       this.edges,
@@ -105,6 +110,10 @@ export class Cloud {
     this.spheres.setLooks(looks);
   }
 
+  setTints(tints: Tints | null): void {
+    this.spheres.setTints(tints);
+  }
+
   setColours(text: string, accent: string, ground: string): void {
     for (const object of [this.axes, this.edges, this.simplex, this.crossings])
       object.material.color.set(text);
@@ -125,7 +134,21 @@ export class Cloud {
     this.route.material.resolution.copy(this.size);
   }
 
+  /** Back to where the whole of it is seen. */
+  goHome(): void {
+    this.camera.position.copy(HOME);
+    this.controls.target.set(0, 0, 0);
+    this.controls.update();
+  }
+
+  /** Whether nothing was moved but the camera around the whole of it. */
+  get isHome(): boolean {
+    const { target } = this.controls;
+    return target.lengthSq() < 1e-6 && Math.abs(this.camera.position.length() - HOME.length()) < 1e-3;
+  }
+
   draw(): void {
+    this.spheres.approach(this.camera.position.distanceTo(this.controls.target));
     this.spheres.sort(this.map?.points ?? [], this.camera.position);
     this.renderer.render(this.scene, this.camera);
   }

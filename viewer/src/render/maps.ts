@@ -16,7 +16,8 @@ import { principalAxes } from "./axes";
 export interface SpaceMap {
   /** Of the materials, in the library's order, around the origin. */
   readonly points: readonly Vector3[];
-  readonly pointOf: (recipe: readonly Ingredient[]) => Vector3;
+  /** Of a mix in a blend; where that takes a picture that is not there yet, roughly, and `then` runs when it is. */
+  readonly pointOf: (recipe: readonly Ingredient[], blend: string, then: () => void) => Vector3;
 }
 
 /** A value on an axis, and where it is. */

@@ -12,6 +12,11 @@ export interface Look {
   readonly dim: boolean;
 }
 
+/** sRGB of each material in place of its picture; null for grey. */
+export type Tints = readonly (readonly [number, number, number] | null)[];
+
+/** Of a material that has no number. */
+const UNKNOWN = [0.5, 0.5, 0.5] as const;
 const RINGS = ["none", "stop", "hovered"] as const;
 const PIXELS = 26;
 /** Where a sphere is `PIXELS` wide. */
@@ -25,22 +30,37 @@ export class Spheres {
   readonly points: THREE.Points<THREE.BufferGeometry, THREE.RawShaderMaterial>;
   private readonly positions: THREE.BufferAttribute;
   private readonly looks: THREE.BufferAttribute;
+  private readonly tints: THREE.BufferAttribute;
   private readonly order: THREE.BufferAttribute;
   private readonly crowd: number;
+  private pixels = PIXELS;
 
-  constructor(names: readonly string[], thumbnails: Thumbnails) {
+  constructor(
+    private readonly names: readonly string[],
+    private readonly thumbnails: Thumbnails,
+  ) {
     const n = names.length;
     this.crowd = Math.min(1, Math.cbrt(FEW / n));
     this.positions = new THREE.BufferAttribute(new Float32Array(3 * n), 3);
     this.looks = new THREE.BufferAttribute(new Float32Array(2 * n), 2);
+    this.tints = new THREE.BufferAttribute(new Float32Array(4 * n), 4);
     this.order = new THREE.BufferAttribute(new Uint32Array(n), 1);
     const tiles = new THREE.BufferAttribute(Float32Array.from(names.keys()), 1);
     const geometry = new THREE.BufferGeometry()
       .setAttribute("position", this.positions)
       .setAttribute("look", this.looks)
+      .setAttribute("tint", this.tints)
       .setAttribute("tile", tiles)
       .setIndex(this.order);
-    this.points = new THREE.Points(geometry, material(names, thumbnails));
+    this.points = new THREE.Points(geometry, material());
+    this.paint();
+  }
+
+  /** Give the card the pictures: at first, and when it has lost them. */
+  paint(): void {
+    const columns = Math.ceil(Math.sqrt(this.names.length));
+    this.uniform("uColumns").value = columns;
+    this.uniform("uAtlas").value = atlas(this.names, this.thumbnails, columns);
   }
 
   arrange(points: readonly THREE.Vector3[]): void {
@@ -57,6 +77,14 @@ export class Spheres {
     this.looks.needsUpdate = true;
   }
 
+  /** Colours instead of pictures; null: pictures. */
+  setTints(tints: Tints | null): void {
+    for (let i = 0; i < this.tints.count; i++) {
+      this.tints.setXYZW(i, ...(tints?.[i] ?? UNKNOWN), tints ? 1 : 0);
+    }
+    this.tints.needsUpdate = true;
+  }
+
   setColours(text: string, accent: string, ground: string): void {
     const colours = { uStop: accent, uHovered: text, uGround: ground };
     for (const [uniform, css] of Object.entries(colours)) {
@@ -68,7 +96,12 @@ export class Spheres {
   /** In a panel of this size, in device pixels of which `ratio` are one of CSS. */
   resize(width: number, height: number, ratio: number): void {
     const room = Math.min(1.5, Math.max(0.75, Math.min(width, height) / ratio / 480));
-    this.uniform("uPixels").value = PIXELS * ratio * room * this.crowd;
+    this.pixels = PIXELS * ratio * room * this.crowd;
+  }
+
+  /** Seen from so near, spheres grow less than the room between them, so that one sees in among them. */
+  approach(distance: number): void {
+    this.uniform("uPixels").value = this.pixels * Math.min(1, Math.sqrt(distance / DISTANCE));
   }
 
   /** In device pixels, of a sphere at a point that is seen from `eye`. */
@@ -91,8 +124,7 @@ export class Spheres {
   }
 }
 
-function material(names: readonly string[], thumbnails: Thumbnails): THREE.RawShaderMaterial {
-  const columns = Math.ceil(Math.sqrt(names.length));
+function material(): THREE.RawShaderMaterial {
   return new THREE.RawShaderMaterial({
     glslVersion: THREE.GLSL3,
     vertexShader: vertex,
@@ -103,8 +135,8 @@ function material(names: readonly string[], thumbnails: Thumbnails): THREE.RawSh
     depthTest: false,
     depthWrite: false,
     uniforms: {
-      uAtlas: { value: atlas(names, thumbnails, columns) },
-      uColumns: { value: columns },
+      uAtlas: { value: null },
+      uColumns: { value: 1 },
       uPixels: { value: PIXELS },
       uDistance: { value: DISTANCE },
       uStop: { value: new THREE.Color() },
@@ -133,5 +165,9 @@ function atlas(names: readonly string[], thumbnails: Thumbnails, columns: number
   );
   texture.minFilter = texture.magFilter = THREE.LinearFilter;
   texture.needsUpdate = true;
+  // The card has it: thousands of pictures take tens of megabytes.
+  texture.onUpdate = () => {
+    (texture.image as { data: Uint8Array | null }).data = null;
+  };
   return texture;
 }

@@ -130,8 +130,9 @@ export class Tables {
 
   private makeRoom(): void {
     for (const [name, { texture, lobe, lobeTurns }] of this.loaded) {
-      if (this.loaded.size < this.most) return;
-      if (this.wanted.includes(name)) continue;
+      // A mix that is not shown any more is never shown again: another has its own name.
+      const mayGo = this.loaded.size >= this.most || name.startsWith(MIXED);
+      if (this.wanted.includes(name) || !mayGo) continue;
       for (const each of [texture, lobe, lobeTurns]) each.dispose();
       this.loaded.delete(name);
     }

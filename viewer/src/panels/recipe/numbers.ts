@@ -1,27 +1,17 @@
 // What instruments would read off the material, as sliders: a number that is moved, or written, is asked for until it is let go.
 
 import type { AttributeView, FoundView } from "../../api/schema";
-import { type Asked, inDigits, missed, sliderOf } from "../../asked";
+import { type Asked, inDigits, LABELS, missed, sliderOf } from "../../asked";
 import type { Context } from "../../context";
 import { el, iconButton } from "../../dom";
 import { SLIDERS } from "../../measuring";
-
-/** What they are called beside a slider. */
-const LABELS: Readonly<Record<string, string>> = {
-  gloss60: "Gloss, 60°",
-  haze: "Haze",
-  highlight_width: "Highlight",
-  albedo: "Albedo",
-  L: "Lightness L*",
-  a: "a* green, red",
-  b: "b* blue, yellow",
-};
+import { perceivedNumbers } from "./perceived";
 
 export function numberSliders(context: Context): HTMLElement {
   const { store } = context;
   const list = el("ul.dials", { "aria-label": "Numbers" });
   const note = el("p.note.missing", { role: "status" });
-  const element = el("div.numbers", list, note);
+  const element = el("div.numbers", list, perceivedNumbers(context), note);
   store.watch(["attributes"], ({ attributes }) => {
     const dials = SLIDERS.flatMap((name) => attributes?.find((each) => each.name === name) ?? []);
     list.replaceChildren(...dials.map((attribute) => dial(context, attribute)));

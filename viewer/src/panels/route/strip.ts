@@ -7,9 +7,13 @@ import { el, onResize, style } from "../../dom";
 import { type Route, recipeAt } from "../../route";
 import { isAway } from "../../shown";
 
-/** Of the strip, in CSS pixels, however many rows it has; and of the ticks below each. Its height is in the style sheet, too. */
+/**
+ * Of the strip, in CSS pixels, however many rows it has; and of the ticks below each, with the names of several. Its height, and
+ * that of a name, is in the style sheet, too.
+ */
 const HEIGHT = 68;
 const FOOT = 8;
+const NAME = 13;
 /** Of the slider's thumb: as wide as a picture where there is one row. */
 const THUMB = HEIGHT - FOOT;
 /** Room for a picture, as a share of its width. */
@@ -70,8 +74,9 @@ function drawRows(context: Context, canvas: HTMLCanvasElement, again: () => void
   const { route, otherRoute } = context.store.get();
   const routes = [route, otherRoute].filter((each) => each !== null);
   const high = HEIGHT / Math.max(routes.length, 1);
+  const side = high - (routes.length > 1 ? NAME : FOOT);
   routes.forEach((each, row) => {
-    drawPictures(context, pen, each, again, { width, top: row * high, side: high - FOOT });
+    drawPictures(context, pen, each, again, { width, top: row * high, side });
     drawTicks(context, pen, each, width, (row + 1) * high);
   });
 }

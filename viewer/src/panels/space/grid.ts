@@ -5,6 +5,7 @@ import { dropdown, el } from "../../dom";
 import { COLOURS, type Facets, GLOSSES, inOrder, KINDS, ORDERS, type Order } from "../../materials";
 import { materialAsGhost } from "../../pointing";
 import { only } from "../../recipe";
+import { blendOf } from "../../shown";
 
 const KEYS = ["ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown"];
 
@@ -16,9 +17,10 @@ export function materialGrid(context: Context): HTMLElement {
     { role: "group", "aria-label": "Materials", onkeydown: step },
     ...items.values(),
   );
+  paintSeen(context, grid);
   const arrange = () => {
-    const { described, order, recipe } = store.get();
-    const distance = (name: string) => thumbnails.distance(only(name), recipe);
+    const { described, order, ...state } = store.get();
+    const distance = (name: string) => thumbnails.distance(only(name), state.recipe, blendOf(state));
     grid.append(...inOrder(described, order, distance).map(({ name }) => items.get(name)!));
   };
   // What is looked at stays where it is: likeness is to what was shown when it was asked for.
@@ -33,7 +35,7 @@ export function materialGrid(context: Context): HTMLElement {
   return grid;
 }
 
-function item({ store, actions, thumbnails }: Context, name: string): HTMLElement {
+function item({ store, actions }: Context, name: string): HTMLElement {
   const look = () => store.set({ hovered: name, pointed: materialAsGhost(name) });
   const leave = () => store.set({ hovered: null, pointed: null });
   return el(
@@ -47,9 +49,23 @@ function item({ store, actions, thumbnails }: Context, name: string): HTMLElemen
       onfocus: look,
       onblur: leave,
     },
-    thumbnails.canvas(name),
+    el("canvas.picture", { "data-material": name, width: 0, height: 0 }),
     el("span.called", name),
   );
+}
+
+/** Pictures are there while they are seen, or nearly: those of thousands would take long, and room. */
+function paintSeen({ thumbnails, signal }: Context, grid: HTMLElement): void {
+  const seen = (entries: readonly IntersectionObserverEntry[]) => {
+    for (const { target, isIntersecting } of entries) {
+      const canvas = target as HTMLCanvasElement;
+      if (isIntersecting) thumbnails.paint(canvas, canvas.dataset.material!);
+      else canvas.width = canvas.height = 0;
+    }
+  };
+  const observer = new IntersectionObserver(seen, { root: grid, rootMargin: "50% 0px" });
+  for (const canvas of grid.querySelectorAll("canvas")) observer.observe(canvas);
+  signal.addEventListener("abort", () => observer.disconnect());
 }
 
 /** Arrows go from one to the next, and up and down. */

@@ -7,6 +7,7 @@ uniform vec3 uHovered;
 uniform vec3 uGround;
 flat in float vTile;
 flat in vec2 vLook;
+flat in vec4 vTint;
 flat in float vSize;
 out vec4 colour;
 
@@ -27,7 +28,10 @@ void main() {
   // The outermost pixels of a thumbnail are partly beside the sphere.
   vec2 inside = 0.5 + 0.485 * p * min(1.0 / radius, 1.0 / max(r, 1e-6));
   vec2 tile = vec2(mod(vTile, uColumns), floor(vTile / uColumns));
-  vec3 picture = mix(textureLod(uAtlas, (tile + inside) / uColumns, 0.0).rgb, uGround, vLook.y * 0.82);
+  vec3 picture = textureLod(uAtlas, (tile + inside) / uColumns, 0.0).rgb;
+  // A little darker at the rim, so that they are told apart.
+  picture = mix(picture, vTint.rgb * (1.0 - 0.3 * r * r), vTint.a);
+  picture = mix(picture, uGround, vLook.y * 0.82);
   vec3 around = vLook.x > 1.5 ? uHovered : uStop;
   colour = vec4(disc * picture + ring * around, coverage);
 }
