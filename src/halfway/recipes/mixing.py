@@ -8,6 +8,8 @@ negative: a mix of sound materials is sound. The truncated PCA is something else
 Where a blend aligns, each ingredient's gloss is first stretched to one width (`halfway.brdf.gloss`), the weighted geometric
 mean of their widths, so that a highlight narrows by equal factors for equal weights. A stretched gloss can reflect more than it did from some direction. So where the mix would reflect more
 than 1, and more than any of its ingredients does from there, the channel is scaled down to that.
+
+Last, the body of the mix is multiplied by what the recipe says (`halfway.recipes.body`).
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -26,6 +28,7 @@ from ..halfdiff import MERL, Grid
 from ..library import Library, open_library
 from .blend import Blend
 from .blend import Mapping as BlendMapping
+from .body import LIMITED_AT, with_body
 from .recipe import Recipe
 
 N_AT_ONCE = 8
@@ -34,8 +37,6 @@ KEPT_BYTES = 24 * 12 * MERL.size
 """Of the rows that a mixer keeps, or `LEAST_ROWS` where they are larger: as many as a recipe has."""
 LEAST_ROWS = 8
 _CHUNK = 1 << 15  # samples summed at once: the sums stay in a core's cache
-_ALBEDO_ANGLES = np.radians([0.0, 20.0, 40.0, 60.0, 70.0, 80.0])
-"""From which a mix of stretched highlights reflects no more than it may."""
 
 
 class Mixer:
@@ -70,7 +71,8 @@ class Mixer:
             When the recipe names a material that the library does not have.
         """
         grid = self._library.grid
-        values = self._aligned(recipe) if _aligns(recipe) else self._pointwise(recipe)
+        mixed = self._aligned(recipe) if _aligns(recipe) else self._pointwise(recipe)
+        values = with_body(mixed, recipe.body_scale, grid)
         return TabularBrdf(values.reshape(3, *grid.shape), grid, name=_title(recipe))
 
     def _pointwise(self, recipe: Recipe) -> Table:
@@ -103,7 +105,7 @@ class Mixer:
         )
         table = TabularBrdf(values.reshape(3, *grid.shape), grid)
         limit = np.maximum(1, np.max([part.albedos for part in parts], axis=0))
-        share = np.min(limit / np.maximum(albedos(table, _ALBEDO_ANGLES), limit), axis=0)
+        share = np.min(limit / np.maximum(albedos(table, LIMITED_AT), limit), axis=0)
         return values * share.astype(np.float32)[:, None] if (share < 1).any() else values
 
     def _compiling(self) -> bool:
@@ -120,7 +122,7 @@ class _Parts(NamedTuple):
     def of(cls, library: Library, name: str) -> "_Parts":
         row = _row(library, name)
         table = TabularBrdf(row.reshape(3, *library.grid.shape), library.grid)
-        return cls(gloss.Gloss.of(row, library.grid), albedos(table, _ALBEDO_ANGLES))
+        return cls(gloss.Gloss.of(row, library.grid), albedos(table, LIMITED_AT))
 
 
 def mix(
@@ -266,7 +268,7 @@ def _row(library: Library, name: str) -> Table:
 
 
 def _title(recipe: Recipe) -> str:
-    return recipe.names[0] if len(recipe.names) == 1 else f"mix of {len(recipe.names)}"
+    return recipe.material or f"mix of {len(recipe.names)}"
 
 
 def _plain_sum(out: np.ndarray, rows: list[np.ndarray], weights: np.ndarray) -> None:

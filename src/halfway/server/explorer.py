@@ -14,7 +14,6 @@ from pathlib import PurePath
 from threading import Lock
 
 import numpy as np
-from jaxtyping import Float64
 
 from ..brdf import TabularBrdf
 from ..components import Pca
@@ -191,7 +190,7 @@ class Explorer:
         if not small:
             return Block.of_table(drawn(self._mixer.mix(recipe)))
         tables = self.pictures.tables
-        values = tables.mix(self._weights(recipe), recipe.blend)
+        values = tables.of(recipe)
         return Block.of_table(TabularBrdf(values.reshape(3, *tables.grid.shape), tables.grid))
 
     def thumbnails(self) -> Block:
@@ -211,8 +210,7 @@ class Explorer:
                 f"pictures of {len(documents)} recipes were asked for: expected 1 to {MAX_PICTURES}."
             )
         recipes = [self._recipe(document) for document in documents]
-        mixes = [self.pictures.mix(self._weights(each), each.blend) for each in recipes]
-        return self._spheres(np.concatenate(mixes))
+        return self._spheres(np.stack([self.pictures.of(each) for each in recipes]))
 
     def _spheres(self, images: np.ndarray) -> Block:
         mask = self.pictures.scene.mask()
@@ -248,12 +246,6 @@ class Explorer:
                 "open that library with `halfway view`."
             )
         return recipe
-
-    def _weights(self, recipe: Recipe) -> Float64[np.ndarray, "3 1 N"]:
-        """Over all materials."""
-        weights = np.zeros((3, 1, len(self.library)))
-        weights[:, 0, [self.library.index(name) for name in recipe.names]] = recipe.weights
-        return weights
 
     def _first_scores(self) -> Embedding:
         """The first scores of all channels, of which nothing is a point to go to."""
