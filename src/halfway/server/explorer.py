@@ -24,7 +24,7 @@ from ..library import Joined, Library
 from ..look import Looks, small_grid
 from ..recipes import Blend, Mixer, Recipe
 from ..render import SCENES, studio
-from ..space import PACES, SPACES, Embedding, Route, Scores, Space, lengths, make_space
+from ..space import SPACES, Embedding, Route, Scores, Space, lengths, make_space
 from ..space import route as route_through
 from ..tasks import HERE, Work
 from .blocks import Block
@@ -57,6 +57,8 @@ TABLES_BYTES = 190e6
 """Of tables kept ready to be sent: 16 of the MERL grid."""
 N_LEGS = 1000
 """Legs kept ready to be sent, some 10 kB each."""
+PACES = ("perceptual", "uniform")
+"""Of `halfway.space.PACES`, those whose lengths take no time to speak of."""
 MAX_STOPS = 32
 MAX_PICTURES = 64
 
