@@ -19,7 +19,7 @@ from threading import Lock
 from typing import Any, NamedTuple
 
 import numpy as np
-from jaxtyping import Float32, Float64
+from jaxtyping import Float64
 
 from .._types import Table
 from ..brdf import TabularBrdf, albedos, gloss
@@ -76,18 +76,21 @@ class Mixer:
         return TabularBrdf(values.reshape(3, *grid.shape), grid, name=_title(recipe))
 
     def _pointwise(self, recipe: Recipe) -> Table:
+        is_alone = len(recipe.names) == 1
+        mapping = Blend.LINEAR.mapping if is_alone else recipe.blend.mapping
         with self._lock:
-            rows = [self._row(name) for name in recipe.names]
-        if len(rows) == 1:
+            # Mapped once: a logarithm takes as long as the whole sum.
+            rows = [self._row(name, mapping) for name in recipe.names]
+        if is_alone:
             return rows[0]
         values = np.empty_like(rows[0])
         self._n_mixed += 1
-        mean = partial(mean_of, mapping=recipe.blend.mapping)
-        if recipe.blend is Blend.LINEAR:
-            mean = _weighted_sum if self._compiling() else _plain_sum
+        mean = _weighted_sum if self._compiling() else _plain_sum
         for out, channel, weights in zip(values, range(3), recipe.weights, strict=True):
             used = np.flatnonzero(weights)
             mean(out, [rows[i][channel] for i in used], weights[used])
+            if mapping is not Blend.LINEAR.mapping:
+                mapping.back(out, out=out)
         return values
 
     def _aligned(self, recipe: Recipe) -> Table:
@@ -222,26 +225,6 @@ def _compiled_adding() -> Callable[..., None]:
     return add
 
 
-def mean_of(
-    out: Float32[np.ndarray, " p"],
-    rows: Sequence[Float32[np.ndarray, " p"]],
-    weights: Float64[np.ndarray, " n"],
-    *,
-    mapping: BlendMapping,
-) -> None:
-    """``out = m^-1(sum_i w_i m(row_i))``."""
-    mapped = np.empty(min(_CHUNK, len(out)), np.float32)
-    for start in range(0, len(out), _CHUNK):
-        total = out[start : start + _CHUNK]
-        term = mapped[: len(total)]
-        total[:] = 0
-        for row, weight in zip(rows, weights, strict=True):
-            mapping.to(row[start : start + _CHUNK], out=term)
-            term *= np.float32(weight)
-            total += term
-        mapping.back(total, out=total)
-
-
 def _mean_width(parts: Sequence[gloss.Gloss], weights: Float64[np.ndarray, "3 n"]) -> float:
     return float(np.exp(weights.mean(axis=0) @ np.log([part.width for part in parts])))
 
@@ -260,11 +243,13 @@ def _to_recipe(library: Library, recipe: Recipe | Mapping[str, Any] | str, blend
             return Recipe.of(library, recipe, blend)
 
 
-def _row(library: Library, name: str) -> Table:
+def _row(library: Library, name: str, mapping: BlendMapping = Blend.LINEAR.mapping) -> Table:
+    """The samples of a material, mapped."""
     try:
-        return library.row(library.index(name))
+        row = library.row(library.index(name))
     except LibraryError as error:
         raise RecipeError(str(error)) from None
+    return row if mapping is Blend.LINEAR.mapping else mapping.to(row)
 
 
 def _title(recipe: Recipe) -> str:
