@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from numpy.testing import assert_allclose
+from numpy.testing import assert_allclose, assert_array_equal
 from strategies import convex_weights, random_tables
 
 from halfway import Recipe, TabularBrdf, mix
@@ -52,6 +52,16 @@ def metal(alpha):
 
 def plastic(alpha):
     return OpenPbr([0.5, 0.1, 0.05], specular_roughness=alpha**0.5)
+
+
+def test_a_mixer_keeps_the_materials_of_each_blend_apart(noise):
+    """Alone, and mixed in one blend after another, twice: as a mixer has it that does nothing else."""
+    kept = Mixer(noise)
+    alone = Recipe.of(noise, {"material-1": 1.0})
+    half = Recipe.of(noise, {"material-1": 0.5, "material-2": 0.5})
+    recipes = [replace(each, blend=blend) for each in (half, alone) for blend in Blend]
+    for recipe in 2 * recipes:
+        assert_array_equal(kept.mix(recipe).values, Mixer(noise).mix(recipe).values)
 
 
 @blends

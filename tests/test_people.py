@@ -12,9 +12,11 @@ from halfway.formats import read_nbrdf_archive
 from halfway.halfdiff import Grid
 from halfway.library import ProceduralLibrary
 from halfway.models import builtin
-from halfway.people import Perception, distances
+from halfway.people import Impressions, Perception, apart, distances
 from halfway.people.networks import Network, networks
 from halfway.people.perceived import ANCHOR, ANCHOR_SCORES, EXPLAINED, lightness, samples
+from halfway.recipes import Blend, Recipe
+from halfway.space import Route, route
 
 ABC = builtin("merl-abc").models
 BY_STAND_INS = Perception.of()
@@ -96,6 +98,40 @@ def test_distances_are_distances():
     assert_allclose(np.diag(d), 0)
     assert_allclose(d, d.T)
     assert (d[:, None] + d[None] >= d[..., None].swapaxes(1, 2) - 1e-9).all()
+
+
+def test_a_mix_is_where_its_own_table_is():
+    """By small tables, which are resampled; a material is among its neighbours, and those come in order."""
+    some = library(5)
+    impressions = Impressions.fit(some)
+    half = np.full((3, 1, 5), [0.5, 0.5, 0, 0, 0])
+    (mixed,) = impressions.mix(half, Blend.LOBES)
+    own = impressions.of(Recipe.from_dense(some, some.names, half[:, 0], Blend.LOBES))
+    assert apart(mixed, own) < 0.2 * apart(*impressions.points[:2])
+    near = impressions.nearest(impressions.of("m3"), 5)
+    assert near[0] == ("m3", 0)
+    assert [d for _, d in near] == sorted(d for _, d in near)
+    assert_allclose(dict(near)["m0"], distances(some)[0, 3])
+
+
+def test_what_is_not_measured_of_a_material_does_not_count():
+    a, b = np.array([1.0, np.nan, 2.0]), np.array([0.5, 7.0, 2.5])
+    assert apart(a, b) == 1.0
+
+
+def test_at_the_pace_of_people_steps_are_equal_to_them():
+    some = library(5)
+    impressions = Impressions.fit(some)
+    way = route(some, "m0", "m1", space="linear", blend="lobes", pace="people")
+    assert way.pace == "people"
+
+    def jump(way: Route) -> float:
+        points = impressions.mix(way.at(np.linspace(0, 1, 9)), way.blend)
+        steps = apart(points[:-1], points[1:])
+        return float(steps.max() / steps.mean())
+
+    assert jump(way) < 1.05
+    assert jump(way) < jump(route(some, "m0", "m1", space="linear", blend="lobes", pace="uniform"))
 
 
 def test_chrome_is_more_like_steel_than_like_a_fabric():

@@ -29,9 +29,10 @@ from halfway.recipes import Blend, Recipe, mix
 from halfway.server import Explorer, Page, create_app, taking
 from halfway.server.blocks import Block
 from halfway.server.drawable import drawn_grid
+from halfway.server.explorer import PACES
 from halfway.server.guard import MAX_BODY
 from halfway.server.page import Asset
-from halfway.space import PACES, SPACES, Route, make_space
+from halfway.space import SPACES, Route, make_space
 from halfway.tasks import Work
 
 ROOT = Path(__file__).parents[1]

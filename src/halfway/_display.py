@@ -7,10 +7,7 @@ import sys
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    import numpy as np
-
-    from .library import LibraryRef
-    from .recipes import Blend, Recipe
+    from .recipes import Recipe
     from .space import Route
 
 
@@ -34,28 +31,28 @@ def _table(table: object) -> bytes:
 
 def recipe_png(recipe: "Recipe") -> bytes | None:
     """The sphere of a recipe; None, for text alone, where its library is out of reach."""
-    return _recipes_png(recipe.library, recipe.names, recipe.weights[:, None], recipe.blend)
+    from .errors import HalfwayError
+    from .library import open_library
+    from .look import table_png
+    from .recipes import mix
+
+    try:
+        return table_png(mix(open_library(recipe.library.address or recipe.library.name), recipe))
+    except (HalfwayError, OSError):
+        return None
 
 
 def route_png(route: "Route") -> bytes | None:
     """Spheres along a route; None, for text alone, where its library is out of reach."""
     import numpy as np
 
-    from .look import N_SPHERES
-
-    return _recipes_png(
-        route.library, route.names, route.at(np.linspace(0, 1, N_SPHERES)), route.blend
-    )
-
-
-def _recipes_png(
-    library: "LibraryRef", names: tuple[str, ...], weights: "np.ndarray", blend: "Blend"
-) -> bytes | None:
     from .errors import HalfwayError
     from .library import open_library
-    from .look import recipes_png
+    from .look import N_SPHERES, recipes_png
 
+    weights = route.at(np.linspace(0, 1, N_SPHERES))
     try:
-        return recipes_png(open_library(library.address or library.name), names, weights, blend)
+        library = open_library(route.library.address or route.library.name)
+        return recipes_png(library, route.names, weights, route.blend)
     except (HalfwayError, OSError):
         return None

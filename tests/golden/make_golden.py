@@ -134,8 +134,7 @@ def _library(n: int, seed: int) -> ProceduralLibrary:
 
 def _route() -> dict[str, Any]:
     """Legs as they are sent, one of them against the library's order, and the routes and recipes of the whole."""
-    from halfway.server.explorer import Explorer
-    from halfway.space import PACES
+    from halfway.server.explorer import PACES, Explorer
 
     explorer = Explorer(_library(20, seed=4))
     stops = ["material-0", "material-7", "material-2", "material-9"]

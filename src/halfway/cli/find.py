@@ -2,7 +2,7 @@
 
 import json
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -12,6 +12,11 @@ from .attributes import changes, lines, to_json
 from .completion import complete_names
 from .console import say, show, work
 from .outputs import writing
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from ..recipes import Recipe
 
 NAME_VALUE = "NAME=VALUE"
 Like = Annotated[
@@ -30,6 +35,13 @@ AtMost = Annotated[list[str], typer.Option(metavar=NAME_VALUE, help="An attribut
 AtLeast = Annotated[list[str], typer.Option(metavar=NAME_VALUE, help="An attribute at the least.")]
 Few = Annotated[bool, typer.Option("--few", help="Of as few materials as can be.")]
 Clamp = Annotated[bool, typer.Option("--clamp", help="Take the nearest where no mix has all that.")]
+Release = Annotated[
+    list[str],
+    typer.Option(
+        metavar="NAME",
+        help="Do not hold this of the highlight beside a body colour; again for more.",
+    ),
+]
 Output = Annotated[
     Path | None,
     typer.Option("--output", "-o", metavar="FILE", help="A recipe, .json; or a material."),
@@ -45,6 +57,7 @@ def find(
     blend: options.Blending = None,
     few: Few = False,
     clamp: Clamp = False,
+    release: Release = [],  # noqa: B006
     output: Output = None,
     as_json: options.AsJson = False,
     force: options.Force = False,
@@ -56,7 +69,7 @@ def find(
     halfway find merl.brdflib --set L=40 --set a=20 --set b=10 --at-most gloss60=5
     halfway find --like teflon --set gloss60=20 --blend lobes -o shiny.json
     halfway find --like sphere.png -o seen.json                         in the light in which routes are paced
-    halfway find --like scan.binary --set "body=#7a3b1e" -o new.binary
+    halfway find --like scan.binary --set "body=#7a3b1e" -o new.binary  its highlight is held, unless --release gloss60
     """
     from halfway.control import Control, Wishes
     from halfway.export import write_material, write_recipe
@@ -71,7 +84,12 @@ def find(
         )
     control = Control.of(lib, work=work())
     recipe = control.find(
-        wishes, like=like or None, blend=Blend(blend or Blend.LINEAR), few=few, clamp=clamp
+        wishes,
+        like=like or None,
+        blend=Blend(blend or Blend.LINEAR),
+        few=few,
+        clamp=clamp,
+        release=release,
     )
     if output:
         with writing(output, force=force):
@@ -79,15 +97,29 @@ def find(
                 write_recipe(output, control.library, recipe)
             else:
                 write_material(output, NamedBrdf.mixed(control.library, recipe, output.stem))
-    if lost := control.given_up(recipe, wishes, like):
-        say(f"no nearer mix keeps what {like} has: {changes(lost)}")
-    read = control.attributes(recipe)
-    if as_json:
-        print(json.dumps({"format": 1, **recipe.to_json(), "attributes": to_json(read)}, indent=1))
-    else:
-        show(*(f"{weight:.6f}  {name}" for name, weight in recipe.to_json()["weights"].items()))
-        show(*lines(read))
+    _say_given_up(recipe, like, control.given_up(recipe, wishes, like or None))
+    _show(recipe, control.attributes(recipe), as_json=as_json)
     if output:
         say(
             f"{output}: a mix of {', '.join(recipe.names)}. Next: halfway render {output} -o new.png"
         )
+
+
+def _say_given_up(recipe: "Recipe", like: str, lost: "Mapping[str, tuple[Any, Any]]") -> None:
+    if recipe.is_recoloured:
+        scale = ", ".join(f"{x:.3g}" for x in recipe.body_scale)
+        also = f"; with it went {changes(lost)}" if lost else ""
+        say(
+            f"no mix has that body and keeps the highlight of {like}: "
+            f"its body alone is scaled, red, green and blue by {scale}{also}"
+        )
+    elif lost:
+        say(f"no nearer mix keeps what {like} has: {changes(lost)}")
+
+
+def _show(recipe: "Recipe", read: "Mapping[str, Any]", *, as_json: bool) -> None:
+    if as_json:
+        print(json.dumps({"format": 1, **recipe.to_json(), "attributes": to_json(read)}, indent=1))
+        return
+    show(*(f"{weight:.6f}  {name}" for name, weight in recipe.to_json()["weights"].items()))
+    show(*lines(read))

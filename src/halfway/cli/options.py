@@ -87,6 +87,7 @@ class BlendName(StrEnum):
 
 class Pace(StrEnum):
     perceptual = "perceptual"
+    people = "people"
     uniform = "uniform"
 
 
@@ -142,7 +143,11 @@ Space = Annotated[
     ),
 ]
 Pacing = Annotated[
-    Pace, typer.Option("--pace", help="perceptual: equal visible steps; uniform: the paper's.")
+    Pace,
+    typer.Option(
+        "--pace",
+        help="perceptual: equal visible steps; people: steps that they call equal; uniform: the paper's.",
+    ),
 ]
 Detour = Annotated[
     float,

@@ -26,7 +26,7 @@ def space(
         str,
         typer.Option(
             metavar="WHAT",
-            help="Say where this one stands, and what is nearest to it: a name, a file, a recipe.",
+            help="Say where this one stands, and what people find most alike: a name, a file, a recipe.",
             autocompletion=complete_names,
         ),
     ] = "",
@@ -52,7 +52,8 @@ def space(
     chosen = make_space(space, library, n_components=components, blend=blend, work=work())
     if near:
         point = chosen.point_of(newcomer) if newcomer else chosen.points[library.index(near)]
-        _show_near(chosen, near, point, n, as_json)
+        found = _alike(library, near, newcomer, n)
+        _show_near(chosen, near, point, found, as_json)
     elif as_json:
         print(json.dumps(chosen.to_json(), indent=1))
     else:
@@ -79,10 +80,26 @@ def _newcomer(library: "Library", lib: str, what: str) -> "Newcomer":
     return Newcomer(library, material.load(), material.label, work())
 
 
-def _show_near(space: "Space", name: str, point: "np.ndarray", n: int, as_json: bool) -> None:
-    """A point, the mix that stands there or nearest to it, and the materials around it."""
+def _alike(
+    library: "Library", name: str, newcomer: "Newcomer | None", n: int
+) -> list[tuple[str, float]]:
+    """The materials that people would find most alike to one, and how different."""
+    from halfway.people import Impressions
+
+    impressions = Impressions.fit(library, work=work())
+    point = impressions.of(newcomer.brdf if newcomer else name)
+    return [near for near in impressions.nearest(point, n + 1) if near[0] != name][:n]
+
+
+def _show_near(
+    space: "Space",
+    name: str,
+    point: "np.ndarray",
+    others: list[tuple[str, float]],
+    as_json: bool,
+) -> None:
+    """A point, the mix that stands there or nearest to it, and the materials that are most alike."""
     position = space.at(point, clamp=True)
-    others = [near for near in space.nearest(point, n + 1) if near[0] != name][:n]
     if as_json:
         where = {"point": point.tolist(), "inside": position.inside, "mix": position.point.tolist()}
         print(json.dumps({**space.to_json(), "near": where, "neighbours": dict(others)}, indent=1))
@@ -91,7 +108,7 @@ def _show_near(space: "Space", name: str, point: "np.ndarray", n: int, as_json: 
     show(_line(space.coordinates, "material"), _line(point, name))
     if not position.inside:
         show(_line(position.point, "(the nearest mix: it is outside the hull)"))
-    say(f"distance, in the coordinates as the {space.name} space scales them")
+    say("how different people would find it (halfway.distances)")
     show(_line(["distance"], "material"), *(_line([distance], other) for other, distance in others))
 
 

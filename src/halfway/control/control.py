@@ -3,17 +3,13 @@
 The weights are one row for all channels, so that what is linear in the table is linear in them.
 """
 
-from collections.abc import Callable
+from collections.abc import Collection
 from dataclasses import dataclass
-from functools import partial
-from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 from jaxtyping import Float64
 
-from ..brdf import Brdf
-from ..colour import from_hex
 from ..errors import OutOfReachError
 from ..instruments import (
     ATTRIBUTES,
@@ -22,31 +18,22 @@ from ..instruments import (
     attribute,
     of_readings,
     read_table,
-    table_of,
 )
 from ..library import Library, LibraryRef, open_library
 from ..look import Looks
-from ..recipes import Blend, Mixer, Recipe, split_address
+from ..recipes import Blend, Mixer, Recipe
 from ..tasks import HERE, Work
-from .nearness import Nearness, numbers, numbers_of
-from .newton import Linearised
-from .pictures import PICTURES, picture_numbers
+from .nearness import Nearness
 from .programme import Goals, Weights, solve
+from .recolour import changed, in_colour
+from .reference import Like, Reference
+from .search import Search
 from .wishes import SIGNS, Wishes, row_of
 
-SPREAD = 0.1
-"""What the distance of the ingredients counts, where that of their mix counts 1: of mixes that are as near, the one of
-materials that are near is taken."""
-MISSED = 1e3
-"""What it costs to miss a wish by the most that a material does, where the farthest material costs 1."""
-KEPT = 0.2
-"""Share by which an attribute may change and still be what it was."""
 N_STEPS = 50
 """Of the search for the end of a range; a ratio takes three or four."""
 SAME = 1e-9
 """A step that moves the end by less, as a share, is the last."""
-
-Like = str | Recipe | Brdf | None
 
 
 class Range(NamedTuple):
@@ -85,52 +72,24 @@ class Control:
         few: bool = False,
         clamp: bool = False,
         draft: bool = False,
+        release: Collection[str] = (),
     ) -> Recipe:
         """The recipe that has what is wished for and is nearest to ``like``; see the function `find`.
 
         In another blend than the linear one a ``draft`` has what is wished for roughly, and is found sooner.
         """
-        differences = self.nearness.scaled(self._reference(like, wishes), held=wishes.held())
-        near = partial(_nearest, wishes, differences, few=few)
-        # Another blend may have what no linear mix has: it begins at the nearest of those.
-        weights = near(self.readings.values, clamp=clamp or blend is not Blend.LINEAR)
-        if weights is None:
-            raise OutOfReachError(self.out_of_reach(wishes))
-        if blend is not Blend.LINEAR:
-            weights = self._blended(wishes, like, blend, weights, near, clamp=clamp, draft=draft)
-        return self._recipe(weights, blend)
-
-    def _blended(
-        self,
-        wishes: Wishes,
-        like: Like,
-        blend: Blend,
-        weights: Weights,
-        near: Callable[..., Weights | None],
-        *,
-        clamp: bool,
-        draft: bool,
-    ) -> Weights:
-        """What a blend needs to have what is wished for, from the weights of the linear mix."""
-        recipe = partial(self._recipe, blend=blend)
-        mixes = Linearised(recipe, self.mixer, self.looks, blend)
-        known = (
-            self._dense(like).any(axis=0) if isinstance(like, Recipe) else np.zeros(len(weights))
+        search = Search(
+            control=self,
+            like=like,
+            reference=self.reference(like, wishes),
+            blend=blend,
+            few=few,
+            draft=draft,
         )
-        few = np.flatnonzero(known + weights)
-        # Nearly always those do that the linear mix has; a step among all takes ten times as long.
-        for among in (few, np.arange(len(weights))):
-            found, missed = mixes.approach(
-                wishes, weights, partial(near, clamp=True), among, draft=draft
-            )
-            if missed <= 1 or draft:
-                return found
-        if not clamp:
-            raise OutOfReachError(
-                f"no mix by the blend {str(blend)!r} near to the linear one has {wishes}: the nearest that was found is "
-                f"{missed:.3g} times too far off. Ask for less, take --blend linear, or this one with --clamp."
-            )
-        return found
+        recipe = search.best(wishes, release, clamp=clamp)
+        if recipe is None:
+            raise OutOfReachError(self.out_of_reach(wishes))
+        return recipe
 
     def reach(self, name: str, wishes: Wishes) -> Range | None:
         """From the least to the most of an attribute where ``wishes`` hold; None where no mix has those."""
@@ -144,19 +103,20 @@ class Control:
 
     def attributes(self, recipe: Recipe) -> dict[str, Any]:
         """The attributes of a recipe of the library, by name; of a linear one without its table."""
-        return of_readings(self._reading(recipe))
+        return of_readings(self.reading(recipe))
 
-    def given_up(self, recipe: Recipe, wishes: Wishes, like: str) -> dict[str, tuple[Any, Any]]:
+    def given_up(self, recipe: Recipe, wishes: Wishes, like: Like) -> dict[str, tuple[Any, Any]]:
         """What a recipe should have kept of what it is like, and did not: the values there and here, by the attribute."""
-        if like not in self.library.names:
+        own = self.reference(like, wishes).readings
+        if own is None:
             return {}
-        there = of_readings(self.readings.values[self.library.index(like)])
-        here = self.attributes(recipe)
+        there, here = of_readings(own), self.attributes(recipe)
+        expected = of_readings(in_colour(own, wishes))
         kept = [a for a in ATTRIBUTES.values() if a.group in wishes.held()]
         return {
             a.name: (there[a.name], here[a.name])
             for a in kept
-            if np.any(np.abs(here[a.name] - there[a.name]) > a.close + KEPT * np.abs(there[a.name]))
+            if all(changed(a, each[a.name], here[a.name]) for each in (there, expected))
         }
 
     def number(self, wanted: Attribute, weights: Weights) -> float:
@@ -182,24 +142,13 @@ class Control:
             value = beyond
         return value
 
-    def _reference(self, like: Like, wishes: Wishes) -> Float64[np.ndarray, " d"]:
-        """The numbers of what a recipe shall be like; without it, of the material that is nearest to the wishes."""
+    def reference(self, like: Like, wishes: Wishes) -> Reference:
+        """What a recipe shall be like; without it, the material that is nearest to the wishes."""
         if like is None:
-            return self.nearness.points[wishes.nearest(self.readings.values)]
+            return Reference(self.nearness.points[wishes.nearest(self.readings.values)])
         if isinstance(like, Recipe):
-            picture = self.looks.mix(self._dense(like), like.blend)
-            return numbers(picture[None], self._reading(like)[None])[0]
-        if not isinstance(like, str):
-            return numbers_of(table_of(like))
-        if like in self.library.names:
-            return self.nearness.points[self.library.index(like)]
-        if (colour := from_hex(like)) is not None:
-            return self.nearness.alone("colour", colour)
-        if Path(like).suffix.lower() in PICTURES:
-            materials = self.nearness.of_group("picture")
-            return self.nearness.alone("picture", picture_numbers(Path(like), materials))
-        named = len(split_address(like)) > 1
-        return numbers_of(table_of(like, library="" if named else self.library.address))
+            return Reference.seen(self.looks.of(like), self.reading(like))
+        return Reference.of(like, self.library, self.readings, self.nearness)
 
     def out_of_reach(self, wishes: Wishes) -> str:
         """Which wish is at fault, by itself or beside the others; how far it goes, and what to do."""
@@ -246,33 +195,13 @@ class Control:
             f"{told}: the nearest is {wanted.written(weights @ wanted.of(self.readings.values))}."
         )
 
-    def _reading(self, recipe: Recipe) -> Float64[np.ndarray, "n_instruments 3"]:
-        if recipe.blend is Blend.LINEAR:
-            return self.readings.mix(self._dense(recipe), recipe.blend)
+    def reading(self, recipe: Recipe) -> Float64[np.ndarray, "n_instruments 3"]:
+        """What instruments read off a recipe; of a linear one without its table."""
+        if recipe.pictures_mix:
+            return self.readings.mix(recipe.dense(self.library.names), recipe.blend)
         return read_table(self.mixer.mix(recipe))
 
-    def _dense(self, recipe: Recipe) -> Float64[np.ndarray, "3 N"]:
-        """The weights of a recipe over all materials."""
-        weights = np.zeros((3, len(self.library)))
-        weights[:, [self.library.index(name) for name in recipe.names]] = recipe.weights
-        return weights
-
-    def _recipe(self, weights: Weights, blend: Blend) -> Recipe:
+    def recipe(self, weights: Weights, blend: Blend) -> Recipe:
+        """The recipe of weights over all materials, the same in every channel."""
         dense = np.broadcast_to(weights, (3, len(weights)))
         return Recipe.from_dense(LibraryRef.of(self.library), self.library.names, dense, blend)
-
-
-def _nearest(
-    wishes: Wishes,
-    differences: Float64[np.ndarray, "N d"],
-    readings: Float64[np.ndarray, "N n_instruments 3"],
-    *,
-    few: bool,
-    clamp: bool,
-) -> Weights | None:
-    """The weights of the nearest mix of materials with these readings, or where none has what is wished for None."""
-    distance = np.abs(differences).sum(axis=1)
-    asked = wishes.goals(readings, missed=MISSED * distance.max() if clamp else np.inf)
-    near = Goals(differences.T, *np.ones((2, differences.shape[1])))
-    # Each goal takes a material more: the fewest are found where the mix itself is not compared.
-    return solve(SPREAD * distance, asked if few else Goals.join([near, asked]))

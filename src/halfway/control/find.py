@@ -1,13 +1,14 @@
 """``find`` and ``reach``: a recipe by what it shall be, and how far an attribute goes, in one call."""
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from typing import Any
 
 from ..errors import ControlError, OutOfReachError
 from ..library import Library
 from ..recipes import Blend, Recipe
 from ..tasks import HERE, Work
-from .control import Control, Like, Range
+from .control import Control, Range
+from .reference import Like
 from .wishes import Wishes
 
 
@@ -21,9 +22,14 @@ def find(
     blend: Blend | str = Blend.LINEAR,
     few: bool = False,
     clamp: bool = False,
+    release: Collection[str] = (),
     work: Work = HERE,
 ) -> Recipe:
     """The recipe that has what is asked for, and of those the one nearest to a reference.
+
+    Where a body colour is asked for, and nothing of the highlight, gloss, haze and width of that are held. Where no mix has
+    them all, it is the reference itself with its body scaled, which `Recipe.body_scale` says; where that does not do, the mix that
+    gives up least.
 
     Parameters
     ----------
@@ -41,6 +47,8 @@ def find(
         Of no more materials than there are numbers asked for, and one.
     clamp : bool
         Where no mix has all that is asked for, the one that misses it least.
+    release : collection of str
+        What need not be held: of ``gloss20``, ``gloss60``, ``gloss85``, ``haze``, ``highlight_width``.
     work : Work
         Who sees how far it is, and where what is read of the library is kept.
 
@@ -57,7 +65,9 @@ def find(
             "there is nothing to find: expected an attribute, or what it shall be like."
         )
     control = Control.of(library, work=work)
-    return control.find(wishes, like=like, blend=Blend(blend), few=few, clamp=clamp)
+    return control.find(
+        wishes, like=like, blend=Blend(blend), few=few, clamp=clamp, release=release
+    )
 
 
 def reach(

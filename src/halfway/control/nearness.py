@@ -17,9 +17,8 @@ import numpy as np
 from jaxtyping import Float64, Int
 
 from .._types import Mask
-from ..brdf import TabularBrdf
-from ..instruments import ATTRIBUTES, Readings, read_table
-from ..look import PACING_SCENE, Looks, SphereOperator
+from ..instruments import ATTRIBUTES, Readings
+from ..look import PACING_SCENE, Looks
 
 N_PARTS = 6
 """Of the picture, along each side."""
@@ -72,12 +71,6 @@ class Nearness:
     def of_group(self, group: str) -> Float64[np.ndarray, "N n_group"]:
         """The numbers of one group, of all materials."""
         return self.points[:, np.array(self.groups) == group]
-
-
-def numbers_of(table: TabularBrdf) -> Float64[np.ndarray, " d"]:
-    """The numbers of a table."""
-    picture = SphereOperator.of(PACING_SCENE, table.grid).picture(table.values.reshape(3, -1))
-    return numbers(picture[None], read_table(table)[None])[0]
 
 
 def numbers(pictures: np.ndarray, readings: np.ndarray) -> Float64[np.ndarray, "N d"]:

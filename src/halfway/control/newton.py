@@ -14,10 +14,9 @@ from collections.abc import Callable
 import numpy as np
 from jaxtyping import Float64, Int
 
-from ..brdf import TabularBrdf
 from ..instruments import read_table
 from ..look import Looks
-from ..recipes import Blend, Mixer, Recipe
+from ..recipes import Mixer, Recipe
 from .programme import Goals, Weights, solve
 from .wishes import Wishes
 
@@ -42,13 +41,10 @@ Near = Callable[[Float64[np.ndarray, "N n_instruments 3"]], Weights | None]
 class Linearised:
     """The readings of a blend's mixes about some weights."""
 
-    def __init__(
-        self, recipe: Callable[[Weights], Recipe], mixer: Mixer, looks: Looks, blend: Blend
-    ) -> None:
+    def __init__(self, recipe: Callable[[Weights], Recipe], mixer: Mixer, looks: Looks) -> None:
         self._recipe = recipe
         self._mixer = mixer
         self._tables = looks.tables
-        self._blend = blend
 
     def approach(
         self, wishes: Wishes, weights: Weights, near: Near, among: Among, *, draft: bool = False
@@ -115,11 +111,7 @@ class Linearised:
         return about
 
     def _small(self, weights: Weights) -> Float64[np.ndarray, "n_instruments 3"]:
-        dense = np.broadcast_to(weights, (3, 1, len(weights)))
-        grid = self._tables.grid
-        values = self._tables.mix(dense, self._blend)[:, 0].reshape(3, *grid.shape)
-        # Below the horizon a small table has the values of neighbours; a table has none.
-        return read_table(TabularBrdf(np.where(grid.mask(), values, np.float32(np.nan)), grid))
+        return read_table(self._tables.table(self._recipe(weights)))
 
 
 def _least_change(

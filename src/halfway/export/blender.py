@@ -83,13 +83,12 @@ def _one_library(materials: Sequence[NamedBrdf]) -> tuple[Library, list[str]]:
     stops: dict[str, Library] = {}
     for material in materials:
         recipe, library = material.recipe, material.library
-        if library is None or recipe is None or len(recipe.names) != 1:
+        if library is None or recipe is None or recipe.material is None:
             raise OutputError(
                 f"{material.label} is no material of a library: expected materials of one library, between which Blender can "
                 "go. Blender opens tables by themselves with File, Import."
             )
-        (name,) = recipe.names
-        stops[name] = library
+        stops[recipe.material] = library
     libraries = {library.checksum: library for library in stops.values()}
     if len(libraries) != 1:
         raise OutputError(

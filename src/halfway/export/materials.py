@@ -23,6 +23,9 @@ from ..recipes import NamedBrdf, Recipe, file_names
 from ..tasks import HERE, Work
 from .fits import MODEL_OF, write_fit
 
+FORMAT = 3
+"""Of a recipe's file; 1 had no blend, and was linear, 2 no body scale."""
+
 
 def write_material(
     path: Path, material: NamedBrdf, *, grid: Grid | None = None, spectral: bool = False
@@ -84,7 +87,7 @@ def recipe_beside(path: Path, material: NamedBrdf) -> Path | None:
 def write_recipe(path: Path, library: Library, recipe: Recipe) -> None:
     """Write a recipe as JSON, with which library it is of, and that one's source and licence."""
     document = {
-        "format": 2,
+        "format": FORMAT,
         **recipe.to_json(),
         "library_address": library.address,
         "library_checksum": library.checksum,

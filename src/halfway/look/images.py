@@ -96,12 +96,16 @@ class Looks:
 
     def picture(self, recipe: Recipe) -> Float32[np.ndarray, "size size 3"]:
         """Linear RGB of one recipe as a square picture, 0 beside the sphere."""
-        weights = np.zeros((3, len(self.names)))
-        weights[:, [self.names.index(name) for name in recipe.names]] = recipe.weights
         mask = self.scene.mask()
         picture = np.zeros((*mask.shape, 3), np.float32)
-        picture[mask] = self.mix(weights, recipe.blend)
+        picture[mask] = self.of(recipe)
         return picture
+
+    def of(self, recipe: Recipe) -> Float32[np.ndarray, "n_pixels 3"]:
+        """Linear RGB of one recipe."""
+        if recipe.pictures_mix:
+            return self._sum(recipe.dense(self.names))
+        return self.of_tables(self.tables.of(recipe)[:, None])[0]
 
 
 @lru_cache(maxsize=6)

@@ -15,7 +15,7 @@ from jaxtyping import Float, Float32
 from ..brdf import TabularBrdf, gloss, tabulate
 from ..halfdiff import Grid
 from ..library import Library
-from ..recipes import Blend, aligned_mean
+from ..recipes import Blend, Recipe, aligned_mean, with_body
 from ..tasks import HERE, Work
 from .samples import body_mask
 
@@ -65,6 +65,16 @@ class SmallTables:
             return np.stack(list(mixes), axis=1)
         mapped = blend.mapping.to(np.stack([self._row(i) for i in used], axis=1))
         return blend.mapping.back(few.astype(np.float32) @ mapped)
+
+    def of(self, recipe: Recipe) -> Float32[np.ndarray, "3 p"]:
+        """The small table of a recipe."""
+        mixed = self.mix(recipe.dense(self._library.names)[:, None], recipe.blend)
+        return with_body(mixed[:, 0], recipe.body_scale, self.grid)
+
+    def table(self, recipe: Recipe) -> TabularBrdf:
+        """The same, unmeasured where the grid is: below the horizon a small table has the values of neighbours."""
+        values = self.of(recipe).reshape(3, *self.grid.shape)
+        return TabularBrdf(np.where(self.grid.mask(), values, np.float32(np.nan)), self.grid)
 
     def body_colour(
         self, weights: Float[np.ndarray, "3 k N"], blend: Blend

@@ -126,7 +126,7 @@ class Explorer(AnyWidget):
     @validate("space", "pace")
     def _known(self, proposal: dict[str, Any]) -> str:
         name, kind = proposal["value"], proposal["trait"].name
-        known = SPACES if kind == "space" else PACES
+        known = SPACES if kind == "space" else self._answers.summary().paces
         if name not in known:
             raise SpaceError(f"there is no {kind} {name!r}: expected one of {', '.join(known)}.")
         return name

@@ -16,16 +16,16 @@ Transactions on Graphics 35(6), 2016. The numbers are under the licence beside t
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from functools import partial
+from functools import cache, lru_cache, partial
 from typing import NamedTuple
 
 import numpy as np
 from jaxtyping import Float64
 
 from .._types import Directions
-from ..brdf import Brdf, quadrature
+from ..brdf import Brdf, TabularBrdf, quadrature
 from ..colour import LUMINANCE, response
-from ..halfdiff import from_half_diff
+from ..halfdiff import Corners, Grid, from_half_diff
 from ..library import Library
 from ..models import builtin
 from ..tasks import HERE, Work
@@ -138,7 +138,10 @@ def samples(brdf: Brdf) -> Values:
     """Values f c of a material, or of its mean over turns, at the pairs of directions that perception looks at."""
     wi, wo = _pairs()
     cosines = np.maximum(wi[:, 2] * wo[:, 2], LEAST_COSINES)
-    return brdf.turned_mean().eval(wi, wo).T * cosines
+    mean = brdf.turned_mean()
+    if isinstance(mean, TabularBrdf):
+        return _corners(mean.grid).blend(mean.values) * cosines
+    return mean.eval(wi, wo).T * cosines
 
 
 def lightness(scores: Scores) -> Float64[np.ndarray, "*k n_components"]:
@@ -153,10 +156,17 @@ def _trust(name: str, was_rated: bool) -> str:
     return "high" if EXPLAINED[name] >= HIGH else "fair"
 
 
+@cache
 def _pairs() -> tuple[Directions, Directions]:
     wi, wo = from_half_diff(quadrature.spread_angles(N_PAIRS))
     lit = (wi[:, 2] > 0) & (wo[:, 2] > 0)
     return wi[lit], wo[lit]
+
+
+@lru_cache(maxsize=2)
+def _corners(grid: Grid) -> Corners:
+    """Where the pairs are on a grid; finding them takes four times as long as reading a table there."""
+    return grid.multilinear(*_pairs())
 
 
 def _has_merl(library: Library) -> bool:
@@ -169,6 +179,8 @@ def _components(library: Library | None, work: Work) -> dict[str, np.ndarray]:
     of = library.material if library else stand_ins.__getitem__
     rows = np.stack(list(work.run(partial(_row, of), names, label="Perception")))
     values = rows.reshape(-1, rows.shape[-1])
+    # Where nothing is measured, all are alike.
+    values = np.where(np.isnan(values).all(axis=0), 0, values)
     median = np.nanmedian(values, axis=0)
     mapped = np.log((values + EPSILON) / (median + EPSILON))
     mean = np.nanmean(mapped, axis=0)

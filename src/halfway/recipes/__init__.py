@@ -1,6 +1,7 @@
 """Recipes, what a person writes for them, and the mixing of recipes into tables."""
 
 from .blend import Blend
+from .body import with_body
 from .mixing import Mixer, aligned_mean, mix
 from .named import NamedBrdf, file_names, file_stem
 from .opening import (
@@ -29,4 +30,5 @@ __all__ = [
     "open_recipe",
     "split_address",
     "split_library",
+    "with_body",
 ]

@@ -8,6 +8,8 @@ negative: a mix of sound materials is sound. The truncated PCA is something else
 Where a blend aligns, each ingredient's gloss is first stretched to one width (`halfway.brdf.gloss`), the weighted geometric
 mean of their widths, so that a highlight narrows by equal factors for equal weights. A stretched gloss can reflect more than it did from some direction. So where the mix would reflect more
 than 1, and more than any of its ingredients does from there, the channel is scaled down to that.
+
+Last, the body of the mix is multiplied by what the recipe says (`halfway.recipes.body`).
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -17,7 +19,7 @@ from threading import Lock
 from typing import Any, NamedTuple
 
 import numpy as np
-from jaxtyping import Float32, Float64
+from jaxtyping import Float64
 
 from .._types import Table
 from ..brdf import TabularBrdf, albedos, gloss
@@ -26,6 +28,7 @@ from ..halfdiff import MERL, Grid
 from ..library import Library, open_library
 from .blend import Blend
 from .blend import Mapping as BlendMapping
+from .body import LIMITED_AT, with_body
 from .recipe import Recipe
 
 N_AT_ONCE = 8
@@ -34,8 +37,6 @@ KEPT_BYTES = 24 * 12 * MERL.size
 """Of the rows that a mixer keeps, or `LEAST_ROWS` where they are larger: as many as a recipe has."""
 LEAST_ROWS = 8
 _CHUNK = 1 << 15  # samples summed at once: the sums stay in a core's cache
-_ALBEDO_ANGLES = np.radians([0.0, 20.0, 40.0, 60.0, 70.0, 80.0])
-"""From which a mix of stretched highlights reflects no more than it may."""
 
 
 class Mixer:
@@ -70,22 +71,26 @@ class Mixer:
             When the recipe names a material that the library does not have.
         """
         grid = self._library.grid
-        values = self._aligned(recipe) if _aligns(recipe) else self._pointwise(recipe)
+        mixed = self._aligned(recipe) if _aligns(recipe) else self._pointwise(recipe)
+        values = with_body(mixed, recipe.body_scale, grid)
         return TabularBrdf(values.reshape(3, *grid.shape), grid, name=_title(recipe))
 
     def _pointwise(self, recipe: Recipe) -> Table:
+        is_alone = len(recipe.names) == 1
+        mapping = Blend.LINEAR.mapping if is_alone else recipe.blend.mapping
         with self._lock:
-            rows = [self._row(name) for name in recipe.names]
-        if len(rows) == 1:
+            # Mapped once: a logarithm takes as long as the whole sum.
+            rows = [self._row(name, mapping) for name in recipe.names]
+        if is_alone:
             return rows[0]
         values = np.empty_like(rows[0])
         self._n_mixed += 1
-        mean = partial(mean_of, mapping=recipe.blend.mapping)
-        if recipe.blend is Blend.LINEAR:
-            mean = _weighted_sum if self._compiling() else _plain_sum
+        mean = _weighted_sum if self._compiling() else _plain_sum
         for out, channel, weights in zip(values, range(3), recipe.weights, strict=True):
             used = np.flatnonzero(weights)
             mean(out, [rows[i][channel] for i in used], weights[used])
+            if mapping is not Blend.LINEAR.mapping:
+                mapping.back(out, out=out)
         return values
 
     def _aligned(self, recipe: Recipe) -> Table:
@@ -103,7 +108,7 @@ class Mixer:
         )
         table = TabularBrdf(values.reshape(3, *grid.shape), grid)
         limit = np.maximum(1, np.max([part.albedos for part in parts], axis=0))
-        share = np.min(limit / np.maximum(albedos(table, _ALBEDO_ANGLES), limit), axis=0)
+        share = np.min(limit / np.maximum(albedos(table, LIMITED_AT), limit), axis=0)
         return values * share.astype(np.float32)[:, None] if (share < 1).any() else values
 
     def _compiling(self) -> bool:
@@ -120,7 +125,7 @@ class _Parts(NamedTuple):
     def of(cls, library: Library, name: str) -> "_Parts":
         row = _row(library, name)
         table = TabularBrdf(row.reshape(3, *library.grid.shape), library.grid)
-        return cls(gloss.Gloss.of(row, library.grid), albedos(table, _ALBEDO_ANGLES))
+        return cls(gloss.Gloss.of(row, library.grid), albedos(table, LIMITED_AT))
 
 
 def mix(
@@ -220,26 +225,6 @@ def _compiled_adding() -> Callable[..., None]:
     return add
 
 
-def mean_of(
-    out: Float32[np.ndarray, " p"],
-    rows: Sequence[Float32[np.ndarray, " p"]],
-    weights: Float64[np.ndarray, " n"],
-    *,
-    mapping: BlendMapping,
-) -> None:
-    """``out = m^-1(sum_i w_i m(row_i))``."""
-    mapped = np.empty(min(_CHUNK, len(out)), np.float32)
-    for start in range(0, len(out), _CHUNK):
-        total = out[start : start + _CHUNK]
-        term = mapped[: len(total)]
-        total[:] = 0
-        for row, weight in zip(rows, weights, strict=True):
-            mapping.to(row[start : start + _CHUNK], out=term)
-            term *= np.float32(weight)
-            total += term
-        mapping.back(total, out=total)
-
-
 def _mean_width(parts: Sequence[gloss.Gloss], weights: Float64[np.ndarray, "3 n"]) -> float:
     return float(np.exp(weights.mean(axis=0) @ np.log([part.width for part in parts])))
 
@@ -258,15 +243,17 @@ def _to_recipe(library: Library, recipe: Recipe | Mapping[str, Any] | str, blend
             return Recipe.of(library, recipe, blend)
 
 
-def _row(library: Library, name: str) -> Table:
+def _row(library: Library, name: str, mapping: BlendMapping = Blend.LINEAR.mapping) -> Table:
+    """The samples of a material, mapped."""
     try:
-        return library.row(library.index(name))
+        row = library.row(library.index(name))
     except LibraryError as error:
         raise RecipeError(str(error)) from None
+    return row if mapping is Blend.LINEAR.mapping else mapping.to(row)
 
 
 def _title(recipe: Recipe) -> str:
-    return recipe.names[0] if len(recipe.names) == 1 else f"mix of {len(recipe.names)}"
+    return recipe.material or f"mix of {len(recipe.names)}"
 
 
 def _plain_sum(out: np.ndarray, rows: list[np.ndarray], weights: np.ndarray) -> None:

@@ -35,7 +35,7 @@ class NamedBrdf(NamedTuple):
     @classmethod
     def mixed(cls, library: Library, recipe: Recipe, label: str = "mix") -> "NamedBrdf":
         """What a recipe of a library stands for; of one material alone, under that one's name."""
-        label = recipe.names[0] if len(recipe.names) == 1 else label
+        label = recipe.material or label
         load = partial(Mixer(library).mix, recipe)
         return cls(label, load, made_of(library, recipe), label, library, recipe)
 

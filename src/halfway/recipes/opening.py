@@ -270,7 +270,6 @@ def _one_of(recipes: Any, path: Path, index: str) -> Mapping[str, Any]:
 
 def _recipe(library: Library, document: Mapping[str, Any], one: Any) -> Recipe:
     """One recipe of a document, of the library that was opened for it."""
-    weights = one.get("weights") if isinstance(one, dict) else None
-    return Recipe.from_json(
-        {"blend": document.get("blend", Blend.LINEAR), "weights": weights}, library=library
-    )
+    own = one if isinstance(one, dict) else {}
+    said = {key: own.get(key) for key in ("weights", "body_scale")}
+    return Recipe.from_json({"blend": document.get("blend", Blend.LINEAR), **said}, library=library)

@@ -6,13 +6,13 @@ A material is its recipe: some hundred bytes. Tables and pictures are made from 
     {"library": "builtin:merl-abc", "weights": {"r": {...}, "g": {...}, "b": {...}}}
 
 the second form where the channels differ. Every weight is positive and each channel sums to 1. ``"blend"`` says how they
-are mixed, where it is not linear; ``"library_address"`` and ``"library_checksum"`` may say which library it is.
+are mixed, where it is not linear, and ``"body_scale": [R, G, B]`` what the body of the mix is then multiplied by; ``"library_address"`` and ``"library_checksum"`` may say which library it is.
 """
 
 import re
 import warnings
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -21,6 +21,7 @@ from jaxtyping import Float64
 from ..errors import RecipeError
 from ..library import Library, LibraryRef
 from .blend import Blend
+from .body import UNSCALED, BodyScale
 
 CHANNELS: tuple[str, str, str] = ("r", "g", "b")
 SUM_TOLERANCE = 1e-6
@@ -45,6 +46,8 @@ class Recipe:
         Non-negative; each row sums to 1.
     blend : Blend
         How the weighted materials become one.
+    body_scale : tuple of float
+        What the body of that is multiplied by, in each channel; its highlight stays (`halfway.recipes.body`).
 
     Examples
     --------
@@ -58,6 +61,7 @@ class Recipe:
     names: tuple[str, ...]
     weights: Float64[np.ndarray, "3 n"]
     blend: Blend = Blend.LINEAR
+    body_scale: BodyScale = UNSCALED
 
     def __post_init__(self) -> None:
         self.weights.flags.writeable = False
@@ -129,11 +133,12 @@ class Recipe:
     def from_json(cls, document: Any, *, library: str | LibraryRef | Library = "") -> "Recipe":
         """The recipe in a JSON document; ``library`` stands in where the document names none."""
         try:
-            return cls.of(
+            recipe = cls.of(
                 _library_in(document) or library,
                 document["weights"],
                 document.get("blend", Blend.LINEAR),
             )
+            return replace(recipe, body_scale=_scale_in(document))
         except (KeyError, TypeError, AttributeError):
             raise RecipeError(
                 'this JSON is no recipe: expected {"library": NAME, "weights": {MATERIAL: WEIGHT, ...}}.'
@@ -148,7 +153,38 @@ class Recipe:
         same = channels[0] == channels[1] == channels[2]
         weights = channels[0] if same else dict(zip(CHANNELS, channels, strict=True))
         blend = {} if self.blend is Blend.LINEAR else {"blend": str(self.blend)}
-        return {"library": self.library.name, **blend, "weights": weights}
+        scale = {"body_scale": list(self.body_scale)} if self.is_recoloured else {}
+        return {"library": self.library.name, **blend, "weights": weights, **scale}
+
+    @property
+    def is_recoloured(self) -> bool:
+        """Whether its body is another than that of the mix."""
+        return self.body_scale != UNSCALED
+
+    @property
+    def material(self) -> str | None:
+        """The material of the library that it is; None where it is another one."""
+        return self.names[0] if len(self.names) == 1 and not self.is_recoloured else None
+
+    @property
+    def pictures_mix(self) -> bool:
+        """Whether it is linear in the tables, so that pictures of it in direct light are those of its materials, mixed."""
+        return self.blend is Blend.LINEAR and not self.is_recoloured
+
+    def dense(self, names: Sequence[str]) -> Float64[np.ndarray, "3 N"]:
+        """The weights over ``names``, which are all materials of the library.
+
+        Raises
+        ------
+        RecipeError
+            When it is of a material that is not among them.
+        """
+        places = {name: i for i, name in enumerate(names)}
+        if missing := [name for name in self.names if name not in places]:
+            raise RecipeError(f"{self.library.name} has no material called {missing[0]!r}.")
+        weights = np.zeros((3, len(names)))
+        weights[:, [places[name] for name in self.names]] = self.weights
+        return weights
 
 
 def _first_part(text: str, names: Sequence[str]) -> tuple[str, float, str]:
@@ -182,6 +218,21 @@ def _library_in(document: Mapping[str, Any]) -> LibraryRef | None:
         return None
     address, checksum = document.get("library_address"), document.get("library_checksum")
     return LibraryRef(str(name), str(address or ""), str(checksum or ""))
+
+
+def _scale_in(document: Mapping[str, Any]) -> BodyScale:
+    written = document.get("body_scale")
+    if written is None:
+        return UNSCALED
+    match written:
+        case [int() | float() as r, int() | float() as g, int() | float() as b] if all(
+            0 <= x < np.inf for x in (r, g, b)
+        ):
+            return float(r), float(g), float(b)
+        case _:
+            raise RecipeError(
+                f"the body scale is {written!r}: expected three numbers, one of each channel, none negative."
+            )
 
 
 def _checked(weights: Mapping[str, Any], where: str) -> dict[str, float]:

@@ -16,7 +16,7 @@ import numpy as np
 
 from ..brdf import TabularBrdf
 from ..errors import RenderError
-from ..recipes import Blend, Recipe
+from ..recipes import Recipe
 from ..tasks import HERE, Work
 from .renderer import Renderer
 
@@ -84,9 +84,9 @@ class BasisPictures:
         RenderError
             When its blend is not linear, for then the picture of the mix is not the mix of the pictures.
         """
-        if recipe.blend is not Blend.LINEAR:
+        if not recipe.pictures_mix:
             raise RenderError(
-                f"the pictures of a {recipe.blend} mix do not mix: expected a linear recipe. Render the mixed table."
+                f"the pictures of a {recipe.blend} mix do not mix: expected a linear recipe, its body as it is. Render the mixed table."
             )
         width, height = self._renderer.size
         mixed = np.zeros((3, height, width), np.float32)

@@ -12,7 +12,7 @@ from typing import TypeVar
 import numpy as np
 
 from ..brdf import TabularBrdf
-from ..recipes import Blend, NamedBrdf, file_names
+from ..recipes import NamedBrdf, file_names
 from ..tasks import HERE, Work
 from . import pictures
 from .basis import BasisPictures
@@ -195,7 +195,7 @@ def _pictures(
     names = {name for material in materials if material.recipe for name in material.recipe.names}
     (library, *others) = libraries.values()
     pictures_mix = renderer.linear and all(
-        material.recipe and material.recipe.blend is Blend.LINEAR for material in materials
+        material.recipe and material.recipe.pictures_mix for material in materials
     )
     if library is None or others or not pictures_mix or len(names) > len(materials):
         return lambda material: renderer.picture(material.table())

@@ -14,7 +14,6 @@ from pathlib import PurePath
 from threading import Lock
 
 import numpy as np
-from jaxtyping import Float64
 
 from ..brdf import TabularBrdf
 from ..components import Pca
@@ -26,7 +25,7 @@ from ..look import Looks, small_grid
 from ..people import Perception
 from ..recipes import Blend, Mixer, Recipe
 from ..render import SCENES, studio
-from ..space import PACES, SPACES, Embedding, Route, Scores, Space, lengths, make_space
+from ..space import SPACES, Embedding, Route, Scores, Space, lengths, make_space
 from ..space import route as route_through
 from ..tasks import HERE, Work
 from .blocks import Block
@@ -60,6 +59,8 @@ TABLES_BYTES = 190e6
 """Of tables kept ready to be sent: 16 of the MERL grid."""
 N_LEGS = 1000
 """Legs kept ready to be sent, some 10 kB each."""
+PACES = ("perceptual", "uniform")
+"""Of `halfway.space.PACES`, those whose lengths take no time to speak of."""
 MAX_STOPS = 32
 MAX_PICTURES = 64
 
@@ -201,7 +202,7 @@ class Explorer:
         if not small:
             return Block.of_table(drawn(self._mixer.mix(recipe)))
         tables = self.pictures.tables
-        values = tables.mix(self._weights(recipe), recipe.blend)
+        values = tables.of(recipe)
         return Block.of_table(TabularBrdf(values.reshape(3, *tables.grid.shape), tables.grid))
 
     def thumbnails(self) -> Block:
@@ -221,8 +222,7 @@ class Explorer:
                 f"pictures of {len(documents)} recipes were asked for: expected 1 to {MAX_PICTURES}."
             )
         recipes = [self._recipe(document) for document in documents]
-        mixes = [self.pictures.mix(self._weights(each), each.blend) for each in recipes]
-        return self._spheres(np.concatenate(mixes))
+        return self._spheres(np.stack([self.pictures.of(each) for each in recipes]))
 
     def _all_spheres(self) -> Block:
         block = self._spheres(self._looks.get(None).images)
@@ -261,12 +261,6 @@ class Explorer:
                 "open that library with `halfway view`."
             )
         return recipe
-
-    def _weights(self, recipe: Recipe) -> Float64[np.ndarray, "3 1 N"]:
-        """Over all materials."""
-        weights = np.zeros((3, 1, len(self.library)))
-        weights[:, 0, [self.library.index(name) for name in recipe.names]] = recipe.weights
-        return weights
 
     def _first_scores(self) -> Embedding:
         """The first scores of all channels, of which nothing is a point to go to."""

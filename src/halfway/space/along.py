@@ -50,7 +50,7 @@ def along(
     for i, value in enumerate(np.linspace(start, stop, n)):
         wishes = Wishes.of({**(set or {}), name: value})
         recipe = control.find(wishes, like=like, blend=Blend(blend))
-        weights[:, i, [control.library.index(m) for m in recipe.names]] = recipe.weights
+        weights[:, i] = recipe.dense(control.library.names)
     t = np.linspace(0, 1, n)
     stops = (f"{name}={start:g}", f"{name}={stop:g}")
     return Route(

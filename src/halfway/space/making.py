@@ -7,10 +7,11 @@ from ..components import Pca
 from ..errors import SpaceError
 from ..library import Library, open_library
 from ..look import Looks
+from ..people import Impressions
 from ..recipes import Blend
 from ..tasks import HERE, Work
 from .anchored import DETOUR, AnchoredSpace
-from .pace import perceptual
+from .pace import by_people, perceptual
 from .routes import Route
 from .space import Space
 from .spaces import LinearSpace, PaperSpace
@@ -19,8 +20,8 @@ SPACES: Mapping[str, type[Space]] = {
     kind.name: kind for kind in (AnchoredSpace, PaperSpace, LinearSpace)
 }
 """By name, the default first."""
-PACES = ("perceptual", "uniform")
-"""How t is spaced on a route: by equal visible steps, or evenly, as the paper does."""
+PACES = ("perceptual", "people", "uniform")
+"""How t is spaced on a route: by equal visible steps, by steps that people would call equal, or evenly, as the paper does."""
 
 
 def make_space(
@@ -88,7 +89,7 @@ def route(
         ``anchored``, straight in body colour and through real materials; ``paper``, the paper's; ``linear``, the ends alone;
         or one that was made.
     pace : str
-        ``perceptual``, equal visible steps; ``uniform``, the paper's.
+        ``perceptual``, equal visible steps; ``people``, steps that people would call equal; ``uniform``, the paper's.
     blend, n_components, detour
         As `make_space` takes them.
     work : Work
@@ -110,7 +111,7 @@ def route(
     """
     opened = open_library(library) if isinstance(library, str) else library
     if pace not in PACES:
-        raise SpaceError(f"there is no pace {pace!r}: expected {' or '.join(PACES)}.")
+        raise SpaceError(f"there is no pace {pace!r}: expected {', '.join(PACES)}.")
     # A mistake is told before a space is fitted.
     Blend(blend or Blend.LINEAR)
     for stop in stops:
@@ -119,4 +120,10 @@ def route(
     fit = partial(make_space, n_components=n_components, detour=detour, blend=blend, work=work)
     fitted = fit(space, opened) if isinstance(space, str) else space
     way = Route.through(fitted, stops)
-    return perceptual(way, Looks.fit(opened, work=work)) if pace == "perceptual" else way
+    match pace:
+        case "perceptual":
+            return perceptual(way, Looks.fit(opened, work=work))
+        case "people":
+            return by_people(way, Impressions.fit(opened, work=work))
+        case _:
+            return way

@@ -11,16 +11,23 @@ of t that are added until no step is longer than `FINEST` of the leg; between th
 piecewise linear.
 
 CIEDE2000 and not the plain distance in CIELAB: strong colours, where CIELAB exaggerates, would get all the steps.
+
+The pace of people is the same by another distance, that which agrees with their answers (`halfway.people.Impressions`).
 """
 
+from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from itertools import pairwise
+from typing import Any, NamedTuple
 
 import numpy as np
 from jaxtyping import Float64
 
 from ..colour import Lab
 from ..look import Looks, appearance, ciede2000_difference
+from ..people import Impressions, apart
+from ..recipes import Blend
 from .routes import Route
 from .way import Way
 
@@ -39,52 +46,66 @@ Shares = Float64[np.ndarray, "..."]
 """Shares of a way, ascending."""
 
 
+class Measure(NamedTuple):
+    """By what mixes differ."""
+
+    at: Callable[[Float64[np.ndarray, "3 n N"], Blend], np.ndarray]
+    """What counts of mixes, given by their weights over all materials; one after another."""
+    apart: Callable[[Any, Any], np.ndarray]
+    """How far apart they are, one by one."""
+
+
+def _look(images: Looks, weights: Float64[np.ndarray, "3 n N"], blend: Blend) -> Lab:
+    return appearance(images.mix(weights, blend))
+
+
 def perceptual(route: Route, images: Looks) -> Route:
     """The same way at perceptual pace; a route on which nothing changes keeps its own."""
     return paced(route, *lengths(route, images))
 
 
+def by_people(route: Route, impressions: Impressions) -> Route:
+    """The same way, as far from one material to the next as people would say."""
+    return paced(route, *_lengths(route, Measure(impressions.mix, apart)), pace="people")
+
+
 def lengths(route: Route, images: Looks) -> tuple[Shares, Shares]:
     """Some t, the knots among them, and the length of the route from its start to each, strictly ascending."""
-    images = images.thinned(THINNING)
-    legs = [_leg(route, images, start, stop) for start, stop in pairwise(route.stop_ts)]
+    look = partial(_look, images.thinned(THINNING))
+    return _lengths(route, Measure(look, ciede2000_difference))
+
+
+def _lengths(route: Route, measure: Measure) -> tuple[Shares, Shares]:
+    legs = [_leg(route, measure, start, stop) for start, stop in pairwise(route.stop_ts)]
     t = [t[:-1] for t, _ in legs]
     steps = np.concatenate([steps for _, steps in legs])
     return np.append(np.concatenate(t), 1.0), np.append(0.0, np.cumsum(steps))
 
 
-def paced(route: Route, t: Shares, length: Shares) -> Route:
+def paced(route: Route, t: Shares, length: Shares, *, pace: str = "perceptual") -> Route:
     """The same way, equal lengths in equal times; ``length`` has been covered at each ``t``."""
     u = length / length[-1]
     stop_ts = np.interp(route.stop_ts, t, u)
-    return replace(route, pace="perceptual", way=Way(u, route.at(t)), stop_ts=stop_ts)
+    return replace(route, pace=pace, way=Way(u, route.at(t)), stop_ts=stop_ts)
 
 
-def _leg(route: Route, images: Looks, start: float, stop: float) -> tuple[Shares, Shares]:
+def _leg(route: Route, measure: Measure, start: float, stop: float) -> tuple[Shares, Shares]:
     """Some t from one stop to the next, the knots among them, and the lengths of the steps between, none 0."""
     knots = route.way.knots
     between = knots[(knots >= start) & (knots <= stop)]
     t = np.union1d(between, np.linspace(start, stop, N_START))
-    looks = _looks(route, images, t)
-    steps = _apart(looks[:-1], looks[1:])
+    looks = measure.at(route.at(t), route.blend)
+    steps = np.asarray(measure.apart(looks[:-1], looks[1:]), np.float64)
     for _ in range(N_ROUNDS):
         long = np.flatnonzero(steps > FINEST * steps.sum())
         if not len(long):
             break
         middle = (t[long] + t[long + 1]) / 2
-        halfway = _looks(route, images, middle)
-        second_halves = _apart(halfway, looks[long + 1])
-        steps[long] = _apart(looks[long], halfway)
+        halfway = measure.at(route.at(middle), route.blend)
+        second_halves = measure.apart(halfway, looks[long + 1])
+        steps[long] = measure.apart(looks[long], halfway)
         steps = np.insert(steps, long + 1, second_halves)
         t = np.insert(t, long + 1, middle)
         looks = np.insert(looks, long + 1, halfway, axis=0)
     length = np.append(0.0, np.cumsum(steps))
     return t, np.diff(length) + LEAST * length[-1] if length[-1] else LEAST * np.diff(t)
-
-
-def _looks(route: Route, images: Looks, t: Shares) -> Lab:
-    return appearance(images.mix(route.at(t), route.blend))
-
-
-def _apart(a: Lab, b: Lab) -> Shares:
-    return np.asarray(ciede2000_difference(a, b), np.float64)

@@ -1,0 +1,56 @@
+"""What a recipe shall be like: a material, a colour, a picture."""
+
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+from jaxtyping import Float64
+
+from ..brdf import Brdf
+from ..colour import from_hex
+from ..instruments import Readings, read_table, table_of
+from ..library import Library
+from ..look import PACING_SCENE, SphereOperator
+from ..recipes import Recipe, split_address
+from .nearness import Nearness, numbers
+from .pictures import PICTURES, picture_numbers
+
+Like = str | Recipe | Brdf | None
+
+
+class Reference(NamedTuple):
+    """What nearness is measured from."""
+
+    numbers: Float64[np.ndarray, " d"]
+    """Of `Nearness`; NaN for those that it does not have."""
+    readings: Float64[np.ndarray, "n_instruments 3"] | None = None
+    """None where it is no material."""
+
+    @classmethod
+    def of(
+        cls, like: str | Brdf, library: Library, readings: Readings, nearness: Nearness
+    ) -> "Reference":
+        """Anything but a recipe of the library."""
+        if not isinstance(like, str):
+            return cls._of_table(like)
+        if like in library.names:
+            i = library.index(like)
+            return cls(nearness.points[i], readings.values[i])
+        if (colour := from_hex(like)) is not None:
+            return cls(nearness.alone("colour", colour))
+        if Path(like).suffix.lower() in PICTURES:
+            materials = nearness.of_group("picture")
+            return cls(nearness.alone("picture", picture_numbers(Path(like), materials)))
+        is_addressed = len(split_address(like)) > 1
+        return cls._of_table(like, library="" if is_addressed else library.address)
+
+    @classmethod
+    def _of_table(cls, what: str | Brdf, *, library: str = "") -> "Reference":
+        table = table_of(what, library=library)
+        picture = SphereOperator.of(PACING_SCENE, table.grid).picture(table.values.reshape(3, -1))
+        return cls.seen(picture, read_table(table))
+
+    @classmethod
+    def seen(cls, picture: np.ndarray, readings: np.ndarray) -> "Reference":
+        """A material, by its picture in the scene that routes are paced in, and its readings."""
+        return cls(numbers(picture[None], readings[None])[0], readings)

@@ -1,0 +1,136 @@
+"""The search for one recipe: the mixes that have what is wished for, and what there is where none has it all."""
+
+from collections.abc import Collection
+from dataclasses import dataclass, replace
+from functools import partial
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+from jaxtyping import Float64
+
+from ..brdf import TabularBrdf
+from ..errors import OutOfReachError
+from ..instruments import read_table
+from ..recipes import Blend, Recipe
+from .newton import Linearised, Near
+from .programme import Goals, Weights, solve
+from .recolour import UNSCALED, holding, with_colour
+from .reference import Like, Reference
+from .wishes import Wishes
+
+if TYPE_CHECKING:
+    from .control import Control
+
+SPREAD = 0.1
+"""What the distance of the ingredients counts, where that of their mix counts 1: of mixes that are as near, the one of
+materials that are near is taken."""
+MISSED = 1e3
+"""What it costs to miss a wish by the most that a material does, where the farthest material costs 1."""
+
+
+class Found(NamedTuple):
+    """A mix, and by how much it misses what is wished for, where 1 is near enough."""
+
+    recipe: Recipe | None
+    missed: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class Search:
+    """For a recipe that is like something, in one blend."""
+
+    control: "Control"
+    like: Like
+    reference: Reference
+    blend: Blend
+    few: bool
+    draft: bool
+    """Whether small tables do."""
+
+    def best(self, wishes: Wishes, release: Collection[str], *, clamp: bool) -> Recipe | None:
+        """The mix that holds what is held; else what it shall be like with its body scaled; else the nearest mix. None where none has what is wished for.
+
+        Raises
+        ------
+        OutOfReachError
+            When the steps of a blend that is not linear do not come near enough.
+        """
+        held = holding(wishes, self.reference.readings, release)
+        scaled = None
+        if held is not None:
+            found = self._mix(held, thorough=False)
+            if found.missed <= 1:
+                return found.recipe
+            scaled = self._recoloured(wishes)
+            if scaled and self._missed(held, scaled) <= 1:
+                return scaled
+        found = self._mix(wishes, clamp=clamp and scaled is None)
+        if found.missed <= 1 or (scaled is None and (clamp or self.draft)):
+            return found.recipe
+        if scaled is None and found.recipe is not None:
+            raise OutOfReachError(
+                f"no mix by the blend {str(self.blend)!r} near to the linear one has {wishes}: the nearest that was found is "
+                f"{found.missed:.3g} times too far off. Ask for less, take --blend linear, or this one with --clamp."
+            )
+        return scaled
+
+    def _mix(self, wishes: Wishes, *, clamp: bool = False, thorough: bool = True) -> Found:
+        """The nearest mix of materials; with ``clamp`` there always is one, and not linear it is only tried for if ``thorough``."""
+        differences = self.control.nearness.scaled(self.reference.numbers, held=wishes.held())
+        near = partial(_nearest, wishes, differences, few=self.few)
+        # Another blend may have what no linear mix has: it begins at the nearest of those.
+        is_linear = self.blend is Blend.LINEAR
+        weights = near(self.control.readings.values, clamp=clamp or not is_linear)
+        if weights is None:
+            return Found(None, np.inf)
+        if is_linear:
+            return Found(self._recipe(weights), 0.0)
+        return self._approached(wishes, weights, partial(near, clamp=True), thorough=thorough)
+
+    def _approached(self, wishes: Wishes, weights: Weights, near: Near, *, thorough: bool) -> Found:
+        """By steps from the linear mix; nearly always those materials do that it has, and a step among all takes ten times as long."""
+        mixes = Linearised(self._recipe, self.control.mixer, self.control.looks)
+        names = self.control.library.names
+        known = self.like.dense(names).any(axis=0) if isinstance(self.like, Recipe) else 0
+        among = np.flatnonzero(known + weights)
+        found, missed = mixes.approach(wishes, weights, near, among, draft=self.draft)
+        if missed > 1 and thorough and not self.draft:
+            everything = np.arange(len(weights))
+            found, missed = mixes.approach(wishes, weights, near, everything)
+        return Found(self._recipe(found), missed)
+
+    def _recoloured(self, wishes: Wishes) -> Recipe | None:
+        """What it shall be like, or the mix that has the other wishes, with its body scaled; None where that does not do."""
+        others = wishes.without("exact", "body")
+        if isinstance(self.like, Recipe) and not list(others.each()):
+            recipe = replace(self.like, body_scale=UNSCALED)
+        else:
+            recipe = self._mix(others).recipe
+        scaled = recipe and with_colour(recipe, self._table(recipe), wishes.exact["body"])
+        return scaled if scaled and self._missed(wishes, scaled) <= 1 else None
+
+    def _missed(self, wishes: Wishes, recipe: Recipe) -> float:
+        return wishes.missed(read_table(self._table(recipe)))
+
+    def _table(self, recipe: Recipe) -> TabularBrdf:
+        control = self.control
+        return control.looks.tables.table(recipe) if self.draft else control.mixer.mix(recipe)
+
+    def _recipe(self, weights: Weights) -> Recipe:
+        return self.control.recipe(weights, self.blend)
+
+
+def _nearest(
+    wishes: Wishes,
+    differences: Float64[np.ndarray, "N d"],
+    readings: Float64[np.ndarray, "N n_instruments 3"],
+    *,
+    few: bool,
+    clamp: bool,
+) -> Weights | None:
+    """The weights of the nearest mix of materials with these readings, or where none has what is wished for None."""
+    distance = np.abs(differences).sum(axis=1)
+    asked = wishes.goals(readings, missed=MISSED * distance.max() if clamp else np.inf)
+    near = Goals(differences.T, *np.ones((2, differences.shape[1])))
+    # Each goal takes a material more: the fewest are found where the mix itself is not compared.
+    return solve(SPREAD * distance, asked if few else Goals.join([near, asked]))
