@@ -9,11 +9,11 @@ import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 from PIL import Image
 
-from halfway._display import recipe_png
+from halfway._display import N_SPHERES, recipe_png
 from halfway.brdf import TabularBrdf
 from halfway.halfdiff import Grid
 from halfway.library import ProceduralLibrary
-from halfway.look import N_SPHERES, portrait, recipes_png, table_png
+from halfway.look import portrait, recipes_png, table_png
 from halfway.look.portraits import GAP, PORTRAIT_SCENE, STRIP_SCENE
 from halfway.recipes import Recipe
 from halfway.space import LinearSpace, Route

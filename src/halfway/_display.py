@@ -10,6 +10,9 @@ if TYPE_CHECKING:
     from .recipes import Recipe
     from .space import Route
 
+N_SPHERES = 9
+"""Spheres that show a route, its ends among them."""
+
 
 def register() -> None:
     """Tell the IPython shell that is running, if one is, how to show what this package makes."""
@@ -48,7 +51,7 @@ def route_png(route: "Route") -> bytes | None:
 
     from .errors import HalfwayError
     from .library import open_library
-    from .look import N_SPHERES, recipes_png
+    from .look import recipes_png
 
     weights = route.at(np.linspace(0, 1, N_SPHERES))
     try:

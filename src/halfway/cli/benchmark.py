@@ -2,13 +2,16 @@
 
 from enum import StrEnum
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from ..locations import DEFAULT_LIBRARY
 from .console import say, show, work
 from .options import AsJson, Force, GridText, Lib
+
+if TYPE_CHECKING:
+    from halfway.yardstick import RecoveryMethod
 
 PROCESS_DRAWS = 3
 """Of directions for the neural process, of which one table takes seconds."""
@@ -69,16 +72,7 @@ def benchmark(
 
     from .arguments import parse_grid
 
-    recoveries, fits = dict(yardstick.RECOVERIES), {}
-    if neural_process:
-        process = yardstick.NeuralProcess.read(neural_process)
-        fits["neural process"] = process.reconstruct
-        recoveries |= {
-            "neural process, planned directions": yardstick.RecoveryMethod(process.planned),
-            "neural process, random directions": yardstick.RecoveryMethod(
-                process.unplanned, PROCESS_DRAWS
-            ),
-        }
+    fits, recoveries = _methods(neural_process)
     library = open_library(lib)
     folder = output or (None if as_json else Path("benchmark"))
     kept = keeping(folder, "measured.jsonl", "benchmark", force=force) if folder else nullcontext()
@@ -104,3 +98,19 @@ def benchmark(
         show(*measured.lines())
     if folder:
         say(f"{folder}: benchmark.html, and every number in benchmark.json")
+
+
+def _methods(
+    neural_process: Path | None,
+) -> tuple[dict[str, Any], dict[str, "RecoveryMethod"]]:
+    """The networks of a file as methods, and all that recover."""
+    from halfway.yardstick import RECOVERIES, NeuralProcess, RecoveryMethod
+
+    if not neural_process:
+        return {}, {**RECOVERIES}
+    process = NeuralProcess.read(neural_process)
+    networks = {
+        "neural process, planned directions": RecoveryMethod(process.planned),
+        "neural process, random directions": RecoveryMethod(process.unplanned, PROCESS_DRAWS),
+    }
+    return {"neural process": process.reconstruct}, {**RECOVERIES, **networks}

@@ -4,13 +4,12 @@ from .appearance import appearance, ciede2000_difference, cielab_difference, sho
 from .flip import flip
 from .images import Looks, most_different
 from .lit_sphere import JUDGING_SCENE, PACING_SCENE, FilledSphere, SphereOperator, SphereScene
-from .portraits import N_SPHERES, portrait, recipes_png, table_png, to_png
+from .portraits import portrait, recipes_png, table_png, to_png
 from .samples import CellSamples, body_colours, body_mask
 from .small_tables import small_grid
 
 __all__ = [
     "JUDGING_SCENE",
-    "N_SPHERES",
     "PACING_SCENE",
     "CellSamples",
     "FilledSphere",

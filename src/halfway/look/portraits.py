@@ -26,8 +26,6 @@ PORTRAIT_SCENE = replace(PACING_SCENE, name="portrait", size=128, n_points=2)
 STRIP_SCENE = replace(PACING_SCENE, name="strip", size=80, n_points=2)
 GAP = 6
 """Pixels between the spheres of a strip."""
-N_SPHERES = 9
-"""Spheres that show a route, its ends among them."""
 
 Picture = Float32[np.ndarray, "n_pixels 3"]
 """Linear RGB of the sphere's pixels, in the order of `SphereScene.mask`."""

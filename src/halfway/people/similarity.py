@@ -85,9 +85,9 @@ class Impressions:
         return _weighted(_features(read_table(table_of(table))[None], x[None]))[0]
 
 
-def apart(a: Points, b: Points) -> Float64[np.ndarray | np.floating, "..."]:
+def apart(a: Points, b: Points) -> Float64[np.ndarray, "..."]:
     """How different people find materials at these points; what is not measured of one of two does not count."""
-    return np.nansum(np.abs(a - b), axis=-1)
+    return np.asarray(np.nansum(np.abs(a - b), axis=-1))
 
 
 def distances(library: Library | str, *, work: Work = HERE) -> Float64[np.ndarray, "N N"]:

@@ -5,7 +5,7 @@ from .anchored import AnchoredSpace
 from .coordinates import Coordinates, Numbers, Scores
 from .embedding import Embedding
 from .making import PACES, SPACES, make_space, route
-from .pace import by_people, lengths, paced, perceptual
+from .pace import by_people, lengths, perceptual
 from .routes import Route
 from .space import Position, Space
 from .spaces import LinearSpace, PaperSpace
@@ -31,7 +31,6 @@ __all__ = [
     "by_people",
     "lengths",
     "make_space",
-    "paced",
     "perceptual",
     "route",
 ]

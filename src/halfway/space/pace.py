@@ -51,7 +51,7 @@ class Measure(NamedTuple):
 
     at: Callable[[Float64[np.ndarray, "3 n N"], Blend], np.ndarray]
     """What counts of mixes, given by their weights over all materials; one after another."""
-    apart: Callable[[Any, Any], np.ndarray]
+    apart: Callable[[Any, Any], np.ndarray | np.floating]
     """How far apart they are, one by one."""
 
 

@@ -24,8 +24,7 @@ from ..halfdiff import Grid
 from ..library import Library
 from ..measurements import Measurements
 from ..recipes import Mixer
-from ..recovery import Recovery, Setup, plan
-from ..recovery.log_relative import cosines_at, mapped, unmapped
+from ..recovery import Recovery, Setup, log_relative, plan
 from .data import values_of
 from .reconstruction import LogRelative
 
@@ -141,12 +140,12 @@ def random_directions(
 
 def completion(train: Library, wi: Directions, wo: Directions) -> Complete:
     """What `halfway.recover` makes of values at these directions: the completed table, without its interval."""
-    setup, cosines = Setup.of(train, wi, wo), cosines_at(train.grid, slice(None))
-    rows = mapped(values_of(train), cosines).reshape(3 * len(train), -1)
+    setup, cosines = Setup.of(train, wi, wo), log_relative.cosines_at(train.grid, slice(None))
+    rows = log_relative.mapped(values_of(train), cosines).reshape(3 * len(train), -1)
 
     def completed(values: Float64[np.ndarray, "n 3"]) -> np.ndarray:
         weights = Recovery.of(setup, Measurements(wi, wo, values)).weights
-        return unmapped(weights.astype(np.float32) @ rows, cosines)
+        return log_relative.unmapped(weights.astype(np.float32) @ rows, cosines)
 
     return completed
 
