@@ -204,7 +204,7 @@ def test_a_route_knows_its_library(small_library):
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        ({"pace": "hasty"}, "there is no pace 'hasty': expected perceptual or uniform"),
+        ({"pace": "hasty"}, "there is no pace 'hasty': expected perceptual, people, uniform"),
         ({"space": "outer"}, "there is no space 'outer': expected one of anchored, paper, linear"),
     ],
 )

@@ -66,7 +66,6 @@ def difference(shown: np.ndarray, rendered: np.ndarray) -> float:
         ("narrow", "sphere", "studio", 37),
         ("narrow", "teapot", "points", 37),
         ("wide", "sphere", "studio", 0),
-        ("wide", "teapot", "points", 0),
     ],
 )
 def test_the_picture_is_that_of_mitsuba(

@@ -30,7 +30,7 @@ def demo(
     epilogue = f"""
 {output}/
   strip.png          teapots from light-brown-fabric to blue-fabric
-  route.webp         all 51, animated
+  route.webp         the whole way, animated
   recipes.json       what each is mixed from
   {", ".join(f"{i:03d}.binary" for i in NEW_MATERIALS)}   three new materials, MERL files
   report/            eigenvalues and triangulation of the library
