@@ -3,6 +3,8 @@
 Shapes and dtypes in the package's annotations are checked while the tests run.
 """
 
+import sys
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -43,6 +45,43 @@ def shared_data() -> Path:
 def small_library() -> ProceduralLibrary:
     """Nine random materials on a small grid, held in memory."""
     return ProceduralLibrary("small", random_tables(9, Grid.merl(6, 5, 8)), grid=Grid.merl(6, 5, 8))
+
+
+@pytest.fixture
+def run(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> Callable[..., tuple[int, str, str]]:
+    """Run a command in an empty folder; gives (exit code, stdout, stderr)."""
+    from halfway.cli import console
+    from halfway.cli import main as halfway
+
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(console, "cache_folder", lambda: tmp_path / "cache")
+
+    def run(*words: str) -> tuple[int, str, str]:
+        monkeypatch.setattr(sys, "argv", ["halfway", *words])
+        code = 0
+        try:
+            halfway()
+        except SystemExit as stop:
+            code = stop.code or 0
+        return code, *capsys.readouterr()
+
+    return run
+
+
+@pytest.fixture
+def lib(run: Callable[..., tuple[int, str, str]], tmp_path: Path) -> str:
+    """A library in that folder, and the files it was built of in ``measured``."""
+    from halfway.formats import write_merl
+
+    source = tmp_path / "measured"
+    for name, table in random_tables(7, Grid.merl(4, 3, 5)).items():
+        write_merl(source / f"{name}.binary", table)
+    (source / "README").write_text("Measured on a Sunday.")
+    code, _, talk = run("library", "build", "measured", "-o", "tiny.brdflib", "--licence", "CC0")
+    assert code == 0, talk
+    return "tiny.brdflib"
 
 
 @pytest.fixture

@@ -9,8 +9,6 @@ from pathlib import Path
 import pytest
 from strategies import random_tables
 
-from halfway.cli import console
-from halfway.cli import main as halfway
 from halfway.cli.completion import complete_library
 from halfway.formats import read_merl, write_merl
 from halfway.halfdiff import Grid
@@ -20,22 +18,10 @@ TABLES = random_tables(7, GRID)
 
 
 @pytest.fixture
-def run(capsys, monkeypatch, tmp_path):
-    """Run a command in a folder with files and a library; gives (exit code, stdout, stderr)."""
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(console, "cache_folder", lambda: tmp_path / "cache")
+def run(run, tmp_path):
+    """The same, in a folder with files and a library."""
     for name, table in TABLES.items():
         write_merl(tmp_path / "measured" / f"{name}.binary", table)
-
-    def run(*words):
-        monkeypatch.setattr(sys, "argv", ["halfway", *words])
-        code = 0
-        try:
-            halfway()
-        except SystemExit as stop:
-            code = stop.code or 0
-        return code, *capsys.readouterr()
-
     assert run("library", "build", "measured", "-o", "x.brdflib")[0] == 0
     return run
 

@@ -9,30 +9,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from halfway.cli import arguments, console
-from halfway.cli import main as halfway
+from halfway.cli import arguments
 from halfway.errors import HalfwayError
 from halfway.formats import write_merl
 from halfway.halfdiff import Grid
 from halfway.library import CompactLibrary, build_library, compact_file, open_library
-
-
-@pytest.fixture
-def run(capsys, monkeypatch, tmp_path):
-    """Run a command in an empty folder; gives (exit code, stdout, stderr)."""
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(console, "cache_folder", lambda: tmp_path / "cache")
-
-    def run(*words):
-        monkeypatch.setattr(sys, "argv", ["halfway", *words])
-        code = 0
-        try:
-            halfway()
-        except SystemExit as stop:
-            code = stop.code or 0
-        return code, *capsys.readouterr()
-
-    return run
 
 
 def test_a_library_is_built_on_a_grid_added_to_and_kept_compact(run, tmp_path):

@@ -1,48 +1,32 @@
 import importlib.util
 import json
-import socket
 import threading
-import urllib.request
 from collections.abc import Iterable, Iterator
-from io import BytesIO
 from pathlib import Path
-from types import ModuleType, SimpleNamespace
+from types import ModuleType
 from typing import Any
-from urllib.parse import unquote
-from zipfile import ZipFile
 
 import numpy as np
 import pytest
 from fastapi.testclient import TestClient
 from httpx import Response
 from numpy.testing import assert_allclose, assert_array_equal
-from patience import PATIENCE, wait_until
+from patience import wait_until
+from served import HOST, client_of, recipe_of
 
-from halfway.brdf import TabularBrdf
-from halfway.formats import write_merl
-from halfway.formats.rgl_writer import Resolution
-from halfway.halfdiff import Grid
 from halfway.library import ProceduralLibrary
-from halfway.look import Looks
-from halfway.look.small_tables import SmallTables
-from halfway.recipes import Blend, Recipe, mix
-from halfway.server import Explorer, Page, create_app, taking
-from halfway.server.blocks import Block
-from halfway.server.drawable import drawn_grid
+from halfway.recipes import Blend
+from halfway.server import create_app
 from halfway.server.explorer import PACES
-from halfway.server.guard import MAX_BODY
-from halfway.server.page import Asset
 from halfway.space import SPACES, Route, make_space
 from halfway.tasks import Work
 
 ROOT = Path(__file__).parents[1]
-HOST = "http://127.0.0.1:8765"
-PAGE = Page({"index.html": Asset(b"<!doctype html>", "text/html; charset=utf-8", '"1"')})
 
 
 @pytest.fixture(scope="module")
 def client(small_library: ProceduralLibrary) -> TestClient:
-    return TestClient(create_app(small_library, page=PAGE), base_url=HOST)
+    return client_of(small_library)
 
 
 def script(path: Path) -> ModuleType:
@@ -66,50 +50,6 @@ def pictures(answer: Response) -> np.ndarray:
     return np.concatenate([block[..., :3] * 2 ** (exponent - 136), exponent > 0], axis=-1)
 
 
-def test_tables_that_depend_on_phi_h_are_sent_whole_and_taken_home_as_what_holds_them() -> None:
-    grid = Grid.anisotropic(4, 6, 3, 4, period=np.pi)
-    values = np.random.default_rng(0).random((3, *grid.shape)).astype(np.float16).astype(np.float32)
-    brushes = ProceduralLibrary("brushes", {"a": TabularBrdf(values, grid)}, grid=grid)
-    explorer = Explorer(brushes)
-    summary = explorer.summary()
-    assert [(axis.angle, axis.size) for axis in summary.grid] == [
-        ("theta_h", 4), ("phi_h", 6), ("theta_d", 3), ("phi_d", 4)
-    ]  # fmt: skip
-    assert summary.notice == ""
-    assert "merl" not in summary.exports
-    assert "bsdf" in summary.exports
-    sent = halfs(explorer.table("a").body, "4,6,3,4,4")
-    assert_array_equal(sent[..., :3], np.moveaxis(values, 0, -1))
-
-
-@pytest.mark.parametrize(
-    ("grid", "expected"),
-    [
-        (Grid.anisotropic(), Grid.anisotropic()),
-        (Grid.anisotropic(90, 360, 12, 40), Grid.anisotropic(64, 180, 12, 20)),
-        (Grid.anisotropic(400, 20, 40, 40, period=np.pi), Grid.anisotropic(64, 20, 24, 20, period=np.pi)),
-        (Grid.merl(), Grid.merl()),
-        (Grid.merl(180, 180, 360), Grid.merl()),
-    ],
-    ids=str,
-)  # fmt: skip
-def test_a_table_that_takes_more_than_64_mb_on_a_card_is_drawn_on_no_more_than_the_usual_cells(
-    grid: Grid, expected: Grid
-) -> None:
-    assert drawn_grid(grid) == expected
-    assert 8 * drawn_grid(grid).size <= 64e6
-
-
-def test_a_coarser_grid_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("halfway.server.drawable.MAX_BYTES", 1e5)
-    grid = Grid.merl(4, 3, 1200)
-    table = TabularBrdf(np.ones((3, *grid.shape), np.float32), grid)
-    explorer = Explorer(ProceduralLibrary("fine", {"a": table}, grid=grid))
-    assert explorer.table("a").shape == (4, 3, 180, 4)
-    assert explorer.summary().grid[2].size == 180
-    assert explorer.summary().notice.startswith("fine has tables of 4 x 3 x 1200 cells, 0 MB each")
-
-
 # What it says of the library
 
 
@@ -120,59 +60,6 @@ def test_the_library_is_described(client: TestClient, small_library: ProceduralL
     assert [axis["size"] for axis in summary["grid"]] == [6, 5, 8]
     assert [space["name"] for space in summary["spaces"]] == list(SPACES)
     assert len(summary["lights"]) == 3
-
-
-def test_a_table_is_its_samples_times_a_scale(
-    client: TestClient, small_library: ProceduralLibrary
-) -> None:
-    answer = client.get("/api/tables/material-3")
-    block = halfs(answer.content, answer.headers["halfway-shape"])
-    scale = [float(x) for x in answer.headers["halfway-scale"].split(",")]
-    table = np.moveaxis(small_library.brdf("material-3").values, 0, -1)
-    measured = ~np.isnan(table).any(axis=-1)
-    assert_array_equal(block[..., 3], measured)
-    assert_array_equal(block[~measured], 0)
-    # 11 significant bits, rounded to nearest; below 2^-14 the steps are 2^-24.
-    assert_allclose(block[measured][:, :3] * scale, table[measured], rtol=2**-11, atol=2**-25)
-
-
-def test_a_table_that_half_floats_cannot_hold_is_scaled_by_a_power_of_two() -> None:
-    grid = Grid.merl(2, 2, 2)
-    values = np.full((3, *grid.shape), 1.0, np.float32)
-    values[1, 0, 0, 0] = 300_000.0
-    block = Block.of_table(TabularBrdf(values, grid))
-    assert block.scale == (1.0, 8.0, 1.0)
-    assert 8.0 * float(halfs(block.body, "2,2,2,4")[0, 0, 0, 1]) == pytest.approx(
-        300_000.0, rel=2**-11
-    )
-
-
-def test_a_table_that_the_browser_has_is_not_sent_again(client: TestClient) -> None:
-    first = client.get("/api/tables/material-0")
-    again = client.get("/api/tables/material-0", headers={"If-None-Match": first.headers["etag"]})
-    assert (again.status_code, again.content) == (304, b"")
-
-
-@pytest.mark.parametrize("what", ["tables/material-3", "thumbnails", "environment"])
-def test_what_is_large_is_compressed_and_kept_by_its_content(client: TestClient, what: str) -> None:
-    plain = client.get(f"/api/{what}", headers={"Accept-Encoding": "identity"})
-    packed = client.get(f"/api/{what}", headers={"Accept-Encoding": "gzip"})
-    assert packed.headers["content-encoding"] == "gzip"
-    assert packed.content == plain.content
-    assert int(packed.headers["content-length"]) < len(plain.content)
-    again = client.get(f"/api/{what}", headers={"If-None-Match": plain.headers["etag"]})
-    assert (again.status_code, again.content) == (304, b"")
-
-
-def test_files_named_after_their_content_are_never_asked_for_again(
-    small_library: ProceduralLibrary,
-) -> None:
-    page = Page(
-        {name: Asset(b"1", "text/javascript", '"1"') for name in ("index.html", "assets/a-1b.js")}
-    )
-    client = TestClient(create_app(small_library, page=page), base_url=HOST)
-    assert "immutable" in client.get("/assets/a-1b.js").headers["cache-control"]
-    assert client.get("/").headers["cache-control"] == "no-cache"
 
 
 def test_what_takes_long_is_answered_with_how_far_it_is(small_library: ProceduralLibrary) -> None:
@@ -201,21 +88,6 @@ def test_what_takes_long_is_answered_with_how_far_it_is(small_library: Procedura
     finally:
         go_on.set()
     wait_until(lambda: client.get("/api/thumbnails").status_code == 200)
-
-
-def test_thumbnails_are_the_basis_images(
-    client: TestClient, small_library: ProceduralLibrary
-) -> None:
-    looks = Looks.fit(small_library)
-    block = pictures(client.get("/api/thumbnails"))
-    assert block.shape == (9, 64, 64, 4)
-    mask = looks.scene.mask()
-    assert_array_equal(block[..., 3], np.broadcast_to(mask, block.shape[:-1]))
-    images = looks.images.clip(0)
-    # A step of the brightest channel's mantissa, which is at least 128 of 256.
-    step = images.max(axis=-1, keepdims=True) / 128
-    assert (np.abs(block[:, mask, :3] - images) <= step + 2.0**-136).all()
-    assert (block[:, ~mask] == 0).all()
 
 
 def test_a_leg_is_that_of_the_package(client: TestClient, small_library: ProceduralLibrary) -> None:
@@ -320,56 +192,6 @@ def test_the_linear_space_has_no_points_to_go_to(client: TestClient) -> None:
 # Mixes
 
 
-def recipe_of(blend: str) -> dict[str, Any]:
-    weights = {"material-1": 0.25, "material-2": 0.5, "material-5": 0.25}
-    return {"library": "small", "blend": blend, "weights": weights}
-
-
-@pytest.mark.parametrize("blend", Blend)
-def test_the_table_of_a_recipe_is_the_mixer_s_to_half_precision(
-    client: TestClient, small_library: ProceduralLibrary, blend: Blend
-) -> None:
-    answer = client.post("/api/mix", json=recipe_of(blend))
-    block = halfs(answer.content, answer.headers["halfway-shape"])
-    scale = [float(x) for x in answer.headers["halfway-scale"].split(",")]
-    mixed = mix(small_library, Recipe.from_json(recipe_of(blend)))
-    table = np.moveaxis(mixed.values, 0, -1)
-    measured = ~np.isnan(table).any(axis=-1)
-    assert_array_equal(block[..., 3], measured)
-    assert_allclose(block[measured][:, :3] * scale, table[measured], rtol=2**-11, atol=2**-25)
-
-
-def test_a_small_table_of_a_recipe_has_the_small_grid_and_its_values(
-    client: TestClient, small_library: ProceduralLibrary
-) -> None:
-    answer = client.post("/api/mix?small=true", json=recipe_of("lobes"))
-    block = halfs(answer.content, answer.headers["halfway-shape"])
-    axes = client.get("/api/library").json()["small_grid"]
-    assert block.shape == (*(axis["size"] for axis in axes), 4)
-    scale = [float(x) for x in answer.headers["halfway-scale"].split(",")]
-    weights = np.zeros((3, 1, len(small_library)))
-    weights[..., [1, 2, 5]] = 0.25, 0.5, 0.25
-    (table,) = SmallTables(small_library).mix(weights, Blend.LOBES).swapaxes(0, 1)
-    got = np.moveaxis(block[..., :3] * scale, -1, 0).reshape(3, -1)
-    assert_allclose(got, table, rtol=2**-11, atol=2**-25)
-
-
-def test_pictures_of_recipes_are_those_of_the_pacing(client: TestClient) -> None:
-    all_pictures = pictures(client.get("/api/thumbnails"))
-    alone = {"library": "small", "weights": {"material-3": 1}}
-    answer = client.post("/api/thumbnails", json=[alone, recipe_of("linear"), recipe_of("lobes")])
-    own, linear, lobes = pictures(answer)
-    assert_array_equal(own, all_pictures[3])
-    shares = np.array([0.25, 0.5, 0.25])
-    summed = np.tensordot(shares, all_pictures[[1, 2, 5]], axes=1)
-    # A step of each one's brightest channel, and of the sum's.
-    brightest = all_pictures.max(axis=-1, keepdims=True)
-    steps = np.tensordot(shares, brightest[[1, 2, 5]], axes=1) + summed.max(axis=-1, keepdims=True)
-    assert (np.abs(linear - summed) <= steps / 128).all()
-    assert np.abs(lobes - linear).max() > 2**-6
-    assert client.post("/api/thumbnails", json=[]).status_code == 400
-
-
 def test_an_unknown_blend_is_refused(client: TestClient) -> None:
     for answer in (
         client.post("/api/mix", json=recipe_of("median")),
@@ -380,81 +202,6 @@ def test_an_unknown_blend_is_refused(client: TestClient) -> None:
 
 
 # Taking a material home
-
-
-def test_a_downloaded_file_is_mixed_as_its_recipe_says(
-    client: TestClient, small_library: ProceduralLibrary, tmp_path: Path
-) -> None:
-    answer = client.post("/api/export/merl", json=recipe_of("lobes"))
-    write_merl(tmp_path / "mixed.binary", mix(small_library, Recipe.from_json(recipe_of("lobes"))))
-    assert answer.content == (tmp_path / "mixed.binary").read_bytes()
-
-
-def test_the_downloaded_file_is_the_written_one(
-    client: TestClient, small_library: ProceduralLibrary, tmp_path: Path
-) -> None:
-    weights = {
-        "r": {"material-1": 1.0},
-        "g": {"material-1": 0.25, "material-2": 0.75},
-        "b": {"material-5": 1.0},
-    }
-    answer = client.post("/api/export/merl", json={"library": "small", "weights": weights})
-    write_merl(tmp_path / "mixed.binary", mix(small_library, Recipe.of("small", weights)))
-    assert answer.content == (tmp_path / "mixed.binary").read_bytes()
-
-
-def test_a_material_goes_home_to_mitsuba_too(
-    client: TestClient, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr("halfway.formats.rgl_writer.RESOLUTIONS", [Resolution(8, 8)])
-    answer = client.post(
-        "/api/export/bsdf", json={"library": "small", "weights": {"material-1": 1}}
-    )
-    assert answer.content.startswith(b"tensor_file\0")
-
-
-def test_an_unknown_format_is_refused(client: TestClient) -> None:
-    answer = client.post(
-        "/api/export/gltf", json={"library": "small", "weights": {"material-1": 1}}
-    )
-    assert answer.status_code == 400
-    assert "expected merl, bsdf, mtlx, glb" in answer.json()["error"]
-
-
-def test_a_fit_says_how_far_off_it_is(client: TestClient, monkeypatch: pytest.MonkeyPatch) -> None:
-    # Fitting takes seconds, and has its own tests.
-    monkeypatch.setattr(taking, "fit", lambda *_: SimpleNamespace(summary="off by 3.9% ±"))
-    monkeypatch.setattr(taking, "write_fit", lambda path, _: path.write_bytes(b"<materialx>"))
-    answer = client.post(
-        "/api/export/mtlx", json={"library": "small", "weights": {"material-1": 1}}
-    )
-    assert answer.content == b"<materialx>"
-    assert unquote(answer.headers["halfway-summary"]) == "off by 3.9% ±"
-
-
-def test_a_scene_is_a_zip_of_its_folder(client: TestClient) -> None:
-    answer = client.post(
-        "/api/export/pbrt-v4", json={"library": "small", "weights": {"material-1": 1}}
-    )
-    with ZipFile(BytesIO(answer.content)) as archive:
-        assert {"scene.pbrt", "material.bsdf"} <= set(archive.namelist())
-
-
-def test_a_measurement_becomes_a_material(small_library: ProceduralLibrary, tmp_path: Path) -> None:
-    client = TestClient(create_app(small_library), base_url=HOST)
-    refused = client.post("/api/materials/notes.binary", content=b"nothing")
-    assert refused.status_code == 400
-    assert refused.json()["error"].startswith("notes.binary ")
-    before = client.get("/api/tables/material-1").headers["etag"]
-    write_merl(tmp_path / "scan.binary", small_library.brdf("material-2"))
-    content = (tmp_path / "scan.binary").read_bytes()
-    assert client.post("/api/materials/scan.binary", content=content).json() == {"name": "scan"}
-    assert client.post("/api/materials/scan.binary", content=content).json()["name"] == "scan (2)"
-    summary = client.get("/api/library").json()
-    assert [each["name"] for each in summary["materials"]][-2:] == ["scan", "scan (2)"]
-    own, theirs = (client.get(f"/api/tables/{name}") for name in ("scan", "material-2"))
-    assert own.content == theirs.content
-    assert own.headers["etag"] != before
 
 
 def test_a_recipe_of_another_library_is_refused(client: TestClient) -> None:
@@ -505,73 +252,7 @@ def test_what_is_no_recipe_is_refused(client: TestClient, recipe: object) -> Non
     assert answer.json()["error"]
 
 
-def test_another_name_for_this_machine_is_refused(client: TestClient) -> None:
-    answer = client.get("/api/library", headers={"Host": "attacker.example:8765"})
-    assert answer.status_code == 421
-    assert "attacker.example" in answer.json()["error"]
-
-
-def test_a_page_of_another_origin_is_refused(client: TestClient) -> None:
-    assert client.get("/api/library", headers={"Origin": HOST}).status_code == 200
-    assert (
-        client.get("/api/library", headers={"Origin": "https://attacker.example"}).status_code
-        == 403
-    )
-    assert client.get("/api/library", headers={"Origin": "null"}).status_code == 403
-
-
-def test_a_request_that_is_too_large_is_refused(client: TestClient) -> None:
-    answer = client.post("/api/export/merl", content=b" " * (MAX_BODY + 1))
-    assert answer.status_code == 413
-
-
-def test_a_fault_of_ours_is_one_line_too(
-    small_library: ProceduralLibrary, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    client = TestClient(create_app(small_library), base_url=HOST, raise_server_exceptions=False)
-    monkeypatch.setattr(ProceduralLibrary, "row", lambda *_: 1 / 0)
-    answer = client.get("/api/tables/material-5")
-    assert answer.status_code == 500
-    assert "ZeroDivisionError" in answer.json()["error"]
-
-
 # The page
-
-
-def test_the_page_runs_only_its_own_code(client: TestClient) -> None:
-    answer = client.get("/")
-    assert answer.content == PAGE.assets["index.html"].body
-    policy = answer.headers["content-security-policy"]
-    assert "default-src 'none'" in policy
-    assert "script-src 'self'" in policy
-    assert "unsafe" not in policy
-
-
-def test_it_is_served_over_http_until_stopped(small_library: ProceduralLibrary) -> None:
-    import uvicorn
-
-    from halfway.server.run import listen
-
-    with listen(0) as listener:
-        config = uvicorn.Config(create_app(small_library, page=PAGE), log_level="error")
-        server = uvicorn.Server(config)
-        thread = threading.Thread(target=server.run, args=([listener],), daemon=True)
-        thread.start()
-        address = f"http://127.0.0.1:{listener.getsockname()[1]}/"
-        with urllib.request.urlopen(address, timeout=PATIENCE) as answer:
-            assert answer.read() == b"<!doctype html>"
-        server.should_exit = True
-        thread.join(PATIENCE)
-        assert not thread.is_alive()
-
-
-def test_a_port_that_is_taken_is_replaced_by_a_free_one() -> None:
-    from halfway.server.run import listen
-
-    with socket.create_server(("127.0.0.1", 0)) as taken:
-        port = taken.getsockname()[1]
-        with listen(port) as listener:
-            assert listener.getsockname()[1] != port
 
 
 # What is written for the other side
