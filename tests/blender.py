@@ -161,8 +161,7 @@ def by_formula(
     for kind, names in kinds.items():
         for model, column in (("openpbr", OPENPBR), ("principled", MITSUBA)):
             fits = [fit(library.brdf(name), model, name=name) for name in names]
-            rows = [(f.picture.psnr, f.picture.relative_l1, f.albedo_error) for f in fits]
-            means[kind][column] = dict(zip(("psnr", "l1", "furnace"), np.mean(rows, axis=0), strict=True))  # fmt: skip
+            means[kind][column] = _mean([(f.picture.psnr, f.picture.relative_l1, f.albedo_error) for f in fits])  # fmt: skip
     return means
 
 
@@ -176,11 +175,15 @@ def in_three(
         write_fit(path, fit(library.brdf(name), "gltf", name=name))
     with chromium() as browser:
         drawn = dict(zip(names, draw(browser, files), strict=True))
-    means: dict[str, dict[str, dict[str, float]]] = defaultdict(dict)
-    for kind, members in kinds.items():
-        rows = [drawn[name].errors(library.brdf(name)) for name in members]
-        means[kind][THREE] = dict(zip(("psnr", "l1", "furnace"), np.mean(rows, axis=0), strict=True))  # fmt: skip
-    return means
+    return {
+        kind: {THREE: _mean([drawn[name].errors(library.brdf(name)) for name in members])}
+        for kind, members in kinds.items()
+    }
+
+
+def _mean(rows: Sequence[tuple[float, float, float]]) -> dict[str, float]:
+    psnr, l1, furnace = np.mean(rows, axis=0).tolist()
+    return {"psnr": psnr, "l1": l1, "furnace": furnace}
 
 
 def print_table(

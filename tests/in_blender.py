@@ -1,28 +1,30 @@
-"""What runs inside Blender: see `blender`. ``python in_blender.py check|measure|eevee FOLDER``.
-
-The scene is that of `halfway.brdf.quality`: a sphere seen from afar under five suns; a white world without them is the furnace.
-"""
+"""What runs inside Blender: see `blender`. ``python in_blender.py check|measure|eevee FOLDER``."""
 
 import json
 import sys
-from importlib import import_module
 from pathlib import Path
 
 import bpy
 import numpy as np
+from blender_scene import (
+    ADDON,
+    LIGHTS,
+    SAMPLES,
+    add_point,
+    albedo,
+    build_lights,
+    build_scene,
+    in_furnace,
+    inside,
+    lit,
+    module,
+    psnr,
+    reference,
+    relative,
+    turn,
+)
 from mathutils import Vector
 
-ADDON = "bl_ext.user_default.halfway"
-SIZE, SAMPLES = 48, 128
-# As `halfway.brdf.quality`: x to the right, y up, z to the viewer; and the weight.
-LIGHTS = (
-    ((0.5, 0.6, 0.7), 0.6),
-    ((-0.8, 0.2, 0.35), 0.5),
-    ((0.3, -0.9, -0.2), 0.5),
-    ((0.05, 0.1, 1.0), 0.3),
-    ((-0.3, 0.8, -0.4), 0.5),
-)
-POINT, POWER, COLOUR = Vector((2.0, 1.0, 3.0)), 40.0, (1.0, 0.5, 0.25)
 TREES = ("table", "lobes", "principled")
 
 
@@ -33,11 +35,6 @@ def main(what: str, folder: Path) -> None:
         filepath=str(folder / "addon.zip"), repo="user_default", enable_on_install=True
     )
     {"check": check, "measure": measure, "eevee": measure_in_eevee}[what](folder)
-
-
-def module(name: str):
-    """A module of the extension."""
-    return import_module(f"{ADDON}.{name}")
 
 
 def say(*words) -> None:
@@ -217,24 +214,9 @@ def kept(folder: Path) -> None:
 
 
 def measure(folder: Path) -> None:
-    """Every table as every tree, on the lit sphere and in the furnace."""
+    """Every table as every tree, and as Blender reads it from our files, on the lit sphere and in the furnace."""
     build_scene()
-    tables = np.load(folder / "tables.npz")
-    grid = module("halfway.halfdiff").Grid.merl(*tables["grid"].tolist())
-    found = {}
-    for name in tables.files[1:]:
-        brdf = module("halfway.brdf").TabularBrdf(tables[name], grid, name=name)
-        expected, furnace = reference(brdf), albedo(brdf)
-        found[name] = {}
-        for tree, material in shown_as(folder, name, brdf).items():
-            picture = lit(material)
-            errors = {"psnr": psnr(picture, expected), "l1": relative(picture, expected)}
-            if tree != "table":
-                off = np.abs(in_furnace(material) - furnace)[inside(0.96)]
-                errors["furnace"] = float(off.max())
-            found[name][tree] = errors
-        say(name, {tree: {key: round(value, 4) for key, value in errors.items()} for tree, errors in found[name].items()})  # fmt: skip
-    (folder / "errors.json").write_text(json.dumps(found))
+    judge(folder, shown_as)
 
 
 def measure_in_eevee(folder: Path) -> None:
@@ -243,24 +225,38 @@ def measure_in_eevee(folder: Path) -> None:
     scene = bpy.context.scene
     scene.render.engine, scene.eevee.taa_render_samples = "BLENDER_EEVEE", SAMPLES
     scene.render.filter_size = 1.0
+    judge(folder, as_trees)
+
+
+def judge(folder: Path, shown) -> None:
+    """Write how far each table is from what ``shown`` makes of it; those that more than suns light, in the furnace as well."""
     tables = np.load(folder / "tables.npz")
     grid = module("halfway.halfdiff").Grid.merl(*tables["grid"].tolist())
+    has_furnace = bpy.context.scene.render.engine == "CYCLES"
     found = {}
     for name in tables.files[1:]:
         brdf = module("halfway.brdf").TabularBrdf(tables[name], grid, name=name)
-        expected = reference(brdf)
-        pictures = {tree: lit(module("making").make(name, brdf, tree)) for tree in TREES}
-        found[name] = {
-            tree: {"psnr": psnr(picture, expected), "l1": relative(picture, expected)}
-            for tree, picture in pictures.items()
-        }
-        say(name, found[name])
+        expected, furnace = reference(brdf), albedo(brdf)
+        found[name] = {}
+        for tree, material in shown(folder, name, brdf).items():
+            picture = lit(material)
+            errors = {"psnr": psnr(picture, expected), "l1": relative(picture, expected)}
+            if has_furnace and tree != "table":
+                off = np.abs(in_furnace(material) - furnace)[inside(0.96)]
+                errors["furnace"] = float(off.max())
+            found[name][tree] = errors
+        say(name, {tree: {key: round(value, 4) for key, value in errors.items()} for tree, errors in found[name].items()})  # fmt: skip
     (folder / "errors.json").write_text(json.dumps(found))
+
+
+def as_trees(_folder: Path, name: str, brdf) -> dict[str, bpy.types.Material]:
+    """A material as each tree of ours."""
+    return {tree: module("making").make(name, brdf, tree) for tree in TREES}
 
 
 def shown_as(folder: Path, name: str, brdf) -> dict[str, bpy.types.Material]:
     """A material as each tree of ours, and as Blender reads it from our files."""
-    made = {tree: module("making").make(name, brdf, tree) for tree in TREES}
+    made = as_trees(folder, name, brdf)
     glb, usd = folder / f"{name}.glb", folder / name / "scene.usda"
     made[".glb"] = read_by(lambda: bpy.ops.import_scene.gltf(filepath=str(glb)))
     # Blender puts no material on USD's own sphere.
@@ -283,136 +279,9 @@ def read_by(read) -> bpy.types.Material:
     return material
 
 
-def build_scene() -> None:
-    """The sphere, the camera, the suns."""
-    scene = bpy.context.scene
-    scene.render.engine = "CYCLES"
-    scene.cycles.samples, scene.cycles.use_denoising, scene.cycles.max_bounces = SAMPLES, False, 0
-    scene.cycles.pixel_filter_type, scene.cycles.use_adaptive_sampling = "BOX", False
-    scene.render.resolution_x = scene.render.resolution_y = SIZE
-    scene.render.image_settings.file_format = "OPEN_EXR"
-    scene.render.image_settings.color_depth = "32"
-    scene.render.use_persistent_data = True
-    scene.world = bpy.data.worlds.new("world")
-    bpy.ops.mesh.primitive_uv_sphere_add(segments=256, ring_count=128)
-    bpy.context.object.name = "sphere"
-    bpy.ops.object.shade_smooth()
-    camera = bpy.data.objects.new("camera", bpy.data.cameras.new("camera"))
-    scene.collection.objects.link(camera)
-    scene.camera = camera
-    camera.data.type, camera.data.ortho_scale, camera.location = "ORTHO", 2, (0, 0, 5)
-    build_lights()
-
-
-def build_lights() -> None:
-    """The suns as they were; a white diffuse sphere facing one of weight 1 shows 1."""
-    scene = bpy.context.scene
-    for old in [each for each in scene.objects if each.type == "LIGHT"]:
-        bpy.data.objects.remove(old)
-    for i, (direction, weight) in enumerate(LIGHTS):
-        sun = bpy.data.lights.new(f"sun {i}", "SUN")
-        sun.angle, sun.energy = 0, weight * np.pi
-        there = bpy.data.objects.new(f"sun {i}", sun)
-        scene.collection.objects.link(there)
-        turn(there, direction)
-
-
-def add_point() -> None:
-    point = bpy.data.lights.new("point", "POINT")
-    point.energy, point.color, point.shadow_soft_size = POWER, COLOUR, 0
-    there = bpy.data.objects.new("point", point)
-    there.location = POINT
-    bpy.context.scene.collection.objects.link(there)
-
-
-def turn(what: bpy.types.Object, towards) -> None:
-    """Let an object's z axis point there."""
-    what.rotation_euler = Vector(towards).to_track_quat("Z", "Y").to_euler()
-    bpy.context.view_layer.update()
-
-
-def lit(material: bpy.types.Material) -> np.ndarray:
-    """The sphere under the lights."""
-    return rendered(material, 0.0)
-
-
-def in_furnace(material: bpy.types.Material) -> np.ndarray:
-    """The sphere in a white world, without the lights."""
-    suns = [each for each in bpy.context.scene.objects if each.type == "LIGHT"]
-    for each in suns:
-        each.hide_render = True
-    picture = rendered(material, 1.0)
-    for each in suns:
-        each.hide_render = False
-    return picture
-
-
-def rendered(material: bpy.types.Material, world: float) -> np.ndarray:
-    scene = bpy.context.scene
-    sphere = bpy.data.objects["sphere"]
-    sphere.data.materials.clear()
-    sphere.data.materials.append(material)
-    background = scene.world.node_tree.nodes["Background"].inputs
-    background["Color"].default_value, background["Strength"].default_value = (1, 1, 1, 1), world
-    scene.render.filepath = str(Path(bpy.app.tempdir, "picture.exr"))
-    bpy.ops.render.render(write_still=True)
-    image = bpy.data.images.load(scene.render.filepath)
-    pixels = np.array(image.pixels[:]).reshape(SIZE, SIZE, 4)[..., :3]
-    bpy.data.images.remove(image)
-    return pixels
-
-
 def a_table():
     """Some table."""
     return module("panel").table_at(bpy.context.scene, 0.5)[0]
-
-
-def inside(radius: float = 1.0) -> np.ndarray:
-    """The pixels within a share of the sphere's radius."""
-    across = 2 * (np.arange(SIZE) + 0.5) / SIZE - 1
-    return np.hypot(*np.meshgrid(across, across)) < radius
-
-
-def reference(brdf, fine: int = 8) -> np.ndarray:
-    """The lit sphere, each pixel the mean of fine x fine points."""
-    across = 2 * (np.arange(SIZE * fine) + 0.5) / (SIZE * fine) - 1
-    x, y = np.meshgrid(across, across)
-    on = x**2 + y**2 < 1
-    normal = np.stack([x[on], y[on], np.sqrt(1 - x[on] ** 2 - y[on] ** 2)], axis=-1)
-    tangent = np.cross([0.0, 1.0, 1e-9], normal)
-    tangent /= np.linalg.norm(tangent, axis=-1, keepdims=True)
-    frames = np.stack([tangent, np.cross(normal, tangent), normal], axis=1)
-    wo = frames @ np.array([0.0, 0.0, 1.0])
-    total = np.zeros_like(wo)
-    for direction, weight in LIGHTS:
-        wi = frames @ (np.array(direction) / np.linalg.norm(direction))
-        values = np.nan_to_num(brdf.eval(wi, wo), nan=0.0)
-        total += weight * np.pi * values * np.maximum(wi[:, 2:], 0)
-    picture = np.zeros((*x.shape, 3))
-    picture[on] = total
-    return picture.reshape(SIZE, fine, SIZE, fine, 3).mean(axis=(1, 3))
-
-
-def albedo(brdf) -> np.ndarray:
-    """The sphere in the furnace: the directional albedo at each pixel's angle."""
-    across = 2 * (np.arange(SIZE) + 0.5) / SIZE - 1
-    radius = np.hypot(*np.meshgrid(across, across))
-    angles = np.radians(np.arange(0, 86, 5))
-    table = module("halfway.brdf").directional_albedo(brdf, angles)
-    angle = np.arcsin(np.minimum(radius, 1))
-    return np.stack([np.interp(angle, angles, channel) for channel in table.T], axis=-1)
-
-
-def psnr(picture: np.ndarray, expected: np.ndarray) -> float:
-    """Of the display pictures, over the sphere, as `halfway.brdf.quality`."""
-    curve = module("halfway.colour").to_srgb
-    error = np.mean((curve(picture) - curve(expected))[inside(0.985)] ** 2)
-    return float(-10 * np.log10(max(error, 1e-12)))
-
-
-def relative(picture: np.ndarray, expected: np.ndarray) -> float:
-    on = inside(0.985)
-    return float(np.abs(picture - expected)[on].sum() / expected[on].sum())
 
 
 if __name__ == "__main__":

@@ -157,9 +157,7 @@ class Control:
                 others = wishes.without(kind, name)
                 held = others.only(attribute(name).needs) if alone else others
                 if told := self._too_far(kind, name, target, held):
-                    return (
-                        f"{told} Ask for that, release another, or take the nearest with --clamp."
-                    )
+                    return f"{told} Ask for that, let another wish go, or take the nearest with --clamp."
         return (
             f"no mix of {self.library.name} has {wishes}, and none with one of them less: "
             "release some, or take the nearest with --clamp."

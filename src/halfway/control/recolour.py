@@ -25,7 +25,6 @@ from .wishes import Wishes
 KEPT = 0.2
 """Share by which an attribute may change and still be what it was."""
 HELD = ("gloss20", "gloss60", "gloss85", "haze", "highlight_width")
-UNSCALED = (1.0, 1.0, 1.0)
 GRID = Grid.merl(90, 15, 18)
 """Of the matte surface, whose readings are the same on any."""
 

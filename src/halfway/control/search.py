@@ -1,7 +1,7 @@
 """The search for one recipe: the mixes that have what is wished for, and what there is where none has it all."""
 
 from collections.abc import Collection
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -14,7 +14,7 @@ from ..instruments import read_table
 from ..recipes import Blend, Recipe
 from .newton import Linearised, Near
 from .programme import Goals, Weights, solve
-from .recolour import UNSCALED, holding, with_colour
+from .recolour import holding, with_colour
 from .reference import Like, Reference
 from .wishes import Wishes
 
@@ -103,7 +103,7 @@ class Search:
         """What it shall be like, or the mix that has the other wishes, with its body scaled; None where that does not do."""
         others = wishes.without("exact", "body")
         if isinstance(self.like, Recipe) and not list(others.each()):
-            recipe = replace(self.like, body_scale=UNSCALED)
+            recipe = self.like.unscaled()
         else:
             recipe = self._mix(others).recipe
         scaled = recipe and with_colour(recipe, self._table(recipe), wishes.exact["body"])

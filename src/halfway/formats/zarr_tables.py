@@ -127,9 +127,8 @@ def write_zarr(path: str | Path, table: TabularBrdf) -> None:
         chunk = gzip.compress(table.values.astype("<f4").data, compresslevel=1, mtime=0)
         (store / chunk_name(0, table.grid)).write_bytes(chunk)
         if path.exists():
-            path.rename(
-                folder / "old"
-            )  # which goes with the scratch folder, once the new one is in place
+            # It goes with the scratch folder, once the new one is in place.
+            path.rename(folder / "old")
         store.rename(path)
 
 

@@ -81,6 +81,7 @@ def is_compact(path: Location) -> bool:
     try:
         with path.open("rb") as file, zipfile.ZipFile(file) as archive:
             return HEADER in archive.namelist()
+    # Python has no code for some ways to compress: a zip of another program, or a damaged one.
     except (zipfile.BadZipFile, NotImplementedError):
         return False
 

@@ -156,6 +156,10 @@ class Recipe:
         scale = {"body_scale": list(self.body_scale)} if self.is_recoloured else {}
         return {"library": self.library.name, **blend, "weights": weights, **scale}
 
+    def unscaled(self) -> "Recipe":
+        """The same mix with its own body."""
+        return replace(self, body_scale=UNSCALED)
+
     @property
     def is_recoloured(self) -> bool:
         """Whether its body is another than that of the mix."""

@@ -1,50 +1,36 @@
 // How people would perceive the material that is shown, by published networks, each with how far it can be trusted.
 
-import type { PerceivedView } from "../../api/schema";
+import type { PerceivedView, PerceptionView, RecipeDocument } from "../../api/schema";
 import type { Context } from "../../context";
 import { el } from "../../dom";
 import { toDocument } from "../../recipe";
+import { Refined } from "../../refined";
 import { blendOf } from "../../shown";
 
 const WHO = "Perceived, 0 to 1";
 const SOURCE =
   "By the networks of Serrano et al. 2016; trust is how well they can be trusted for such a material";
-/** Milliseconds without a change after which it is asked for: full tables are mixed. */
-const STILL = 300;
 
-/** A list that is asked for while it is open; null where nobody can answer. */
+/** A list that is asked for while it is open, once nothing moves: full tables are mixed. Null where nobody can answer. */
 export function perceivedNumbers({ client, store, actions, signal }: Context): HTMLElement | null {
   const { perceived } = client;
   if (!perceived) return null;
   const list = el("ul");
   const element = el("details.perceived", el("summary", { title: SOURCE }, WHO), list);
-  let timer: ReturnType<typeof setTimeout> | undefined;
-  let running = new AbortController();
-  const ask = async (asking: AbortSignal) => {
-    const state = store.get();
-    const document = toDocument(state.library.name, state.recipe, blendOf(state));
-    const answer = await perceived(document, asking);
-    if (asking.aborted) return;
-    list.replaceChildren(...answer.perceived.map(row));
-    element.classList.remove("behind");
-    actions.say("recipe", "perceived", null);
-  };
+  const asked = new Refined<RecipeDocument, PerceptionView | null>({
+    ask: async (recipe, draft, moved) => (draft ? null : perceived(recipe, moved)),
+    onAnswer: (answer) => answer && list.replaceChildren(...answer.perceived.map(row)),
+    onBehind: (behind) => element.classList.toggle("behind", behind),
+    onProblem: (problem) => actions.say("recipe", "perceived", problem),
+  });
   const follow = () => {
-    clearTimeout(timer);
-    running.abort();
-    running = new AbortController();
-    const { signal: asking } = running;
-    if (!element.open || store.get().recipe.length === 0) return;
-    element.classList.add("behind");
-    const failed = (error: Error) => asking.aborted || actions.say("recipe", "perceived", error.message);
-    timer = setTimeout(() => void ask(asking).catch(failed), STILL);
+    const state = store.get();
+    const isWanted = element.open && state.recipe.length > 0;
+    asked.want(isWanted ? toDocument(state.library.name, state.recipe, blendOf(state)) : null);
   };
   element.addEventListener("toggle", follow);
   store.watch(["recipe", "route", "atPoint", "held"], follow);
-  signal.addEventListener("abort", () => {
-    clearTimeout(timer);
-    running.abort();
-  });
+  signal.addEventListener("abort", () => asked.want(null));
   return element;
 }
 
