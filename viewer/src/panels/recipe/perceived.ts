@@ -19,7 +19,12 @@ export function perceivedNumbers({ client, store, actions, signal }: Context): H
   const element = el("details.perceived", el("summary", { title: SOURCE }, WHO), list);
   const asked = new Refined<RecipeDocument, PerceptionView | null>({
     ask: async (recipe, draft, moved) => (draft ? null : perceived(recipe, moved)),
-    onAnswer: (answer) => answer && list.replaceChildren(...answer.perceived.map(row)),
+    onAnswer: (answer) => {
+      if (answer === null) return;
+      const isFirst = list.childElementCount === 0;
+      list.replaceChildren(...answer.perceived.map(row));
+      if (isFirst) element.scrollIntoView({ block: "nearest" });
+    },
     onBehind: (behind) => element.classList.toggle("behind", behind),
     onProblem: (problem) => actions.say("recipe", "perceived", problem),
   });
