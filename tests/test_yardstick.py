@@ -244,6 +244,14 @@ def test_a_line_that_was_cut_off_is_measured_again(tmp_path):
         assert (results, measured) == ([[0], [2], [4]], again)
 
 
+def test_a_run_that_goes_on_counts_the_time_before(tmp_path):
+    path = tmp_path / "measured.jsonl"
+    path.write_text('{"of": {"seed": 0}, "seconds": 0}\n{"unit": ["t", 5, 0], "scores": [0], "seconds": 60}\n')  # fmt: skip
+    assert Journal.open(path, {"seed": 0}).seconds > 60
+    twice(Journal.open(path, {"seed": 0}))
+    assert all(json.loads(line)["seconds"] > 60 for line in path.read_text().splitlines())
+
+
 def test_what_a_run_with_another_seed_measured_is_refused(tmp_path):
     path = tmp_path / "measured.jsonl"
     twice(Journal.open(path, {"seed": 0}))

@@ -1,6 +1,5 @@
 """The benchmark: fixed data, splits, tasks, measures and methods, so that two numbers from it can be compared."""
 
-import time
 from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
 from importlib.metadata import version
@@ -80,7 +79,6 @@ def benchmark(
     HalfwayError
         When the library does not have the materials that a split or the answers name, or the journal is of another run.
     """
-    start = time.monotonic()
     on = grid or (QUICK_GRID if quick else GRID)
     chosen = [split(name, library.names) for name in splits or (SPLITS[:1] if quick else SPLITS)]
     kept = Journal.open(journal, _identity(library, on, quick, seed))
@@ -98,7 +96,6 @@ def benchmark(
     results += answered
     if not answers:
         skipped["triplets"] = "no file of answers was given (--answers)"
-    seconds = time.monotonic() - start
     return Benchmark(
         library.name,
         library.checksum,
@@ -106,7 +103,7 @@ def benchmark(
         on.shape,
         seed,
         tuple(results),
-        seconds,
+        kept.seconds,
         skipped,
     )
 

@@ -1,10 +1,11 @@
 """What a benchmark has measured so far, in a file: a run that is stopped goes on from there.
 
-{"of": {...}}                                            what all is measured of
-{"unit": ["recover", "liu2023", "mine", 5, 0], "scores": ...}      one line for each part, once it is measured
+{"of": {...}, "seconds": 0}                              what all is measured of, and what it took before
+{"unit": ["recover", "liu2023", "mine", 5, 0], "scores": ..., "seconds": 71.2}      one line for each part, once it is measured
 """
 
 import json
+import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, TypeVar
@@ -21,9 +22,15 @@ Unit = tuple[str | int, ...]
 class Journal:
     """The parts that are measured, by what they are; open one with `Journal.open`."""
 
-    def __init__(self, path: Path | None, known: dict[Unit, Any]) -> None:
+    def __init__(self, path: Path | None, known: dict[Unit, Any], before: float = 0.0) -> None:
         self._path = path
         self._known = known
+        self._start = time.monotonic() - before
+
+    @property
+    def seconds(self) -> float:
+        """How long the run has taken, with what earlier ones noted."""
+        return time.monotonic() - self._start
 
     @classmethod
     def open(cls, path: Path | None, of: Mapping[str, Any]) -> "Journal":
@@ -36,13 +43,14 @@ class Journal:
         """
         if path is None:
             return cls(None, {})
-        head, *lines = list(_whole_lines(path)) or [{"of": of}]
+        head, *lines = noted = list(_whole_lines(path)) or [{"of": of}]
         if differ := [name for name in of if head.get("of", {}).get(name) != of[name]]:
             raise HalfwayError(
                 f"{path} holds results of a run that was stopped, of another {differ[0].replace('_', ' ')}: "
                 "expected the same, to go on from there. Choose another folder with -o, or add --force to begin again."
             )
-        journal = cls(path, {tuple(line["unit"]): line["scores"] for line in lines})
+        known = {tuple(line["unit"]): line["scores"] for line in lines}
+        journal = cls(path, known, noted[-1].get("seconds", 0.0))
         journal._rewrite(of)
         return journal
 
@@ -60,11 +68,12 @@ class Journal:
     def _add(self, unit: Unit, scores: Any) -> None:
         self._known[unit] = scores
         if self._path:
-            append_text(self._path, _line(unit=unit, scores=scores))
+            append_text(self._path, _line(unit=unit, scores=scores, seconds=self.seconds))
 
     def _rewrite(self, of: Mapping[str, Any]) -> None:
         """Without a line that was cut off."""
-        lines = [_line(of=of), *(_line(unit=u, scores=s) for u, s in self._known.items())]
+        known = ({"unit": unit, "scores": scores} for unit, scores in self._known.items())
+        lines = [_line(**each, seconds=self.seconds) for each in ({"of": of}, *known)]
         if self._path:
             with replacing(self._path) as temporary:
                 temporary.write_text("".join(lines), encoding="utf-8")

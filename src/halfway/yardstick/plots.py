@@ -13,30 +13,43 @@ MARKS = "osD^vP*X<>h"
 
 
 def curves(results: Sequence[Result], measures: Sequence[str], setting: str) -> str:
-    """A picture as an address that holds it: one plot for each measure, a line for each method."""
+    """The figure as an address that holds it."""
+    import matplotlib as mpl
+
+    with mpl.rc_context({"svg.fonttype": "none"}):
+        file = io.BytesIO()
+        figure(results, measures, setting).savefig(file, format="svg", metadata={"Date": None})
+    return "data:image/svg+xml;base64," + base64.b64encode(file.getvalue()).decode()
+
+
+def figure(results: Sequence[Result], measures: Sequence[str], setting: str) -> Any:
+    """One plot for each measure, a line for each method (a matplotlib figure)."""
     import matplotlib as mpl
     from matplotlib.figure import Figure
-    from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 
-    with mpl.rc_context(figures.STYLE | {"svg.fonttype": "none"}):
+    with mpl.rc_context(figures.STYLE):
         figure = Figure(figsize=(10, 4.6), layout="constrained")
         axes = figure.subplots(1, len(measures), squeeze=False)[0]
         for ax, measure in zip(axes, measures, strict=True):
             _draw(ax, results, measure)
-            ax.set(xlabel=setting, xscale="log", title=MEASURES[measure].label.partition(",")[0])
-            settings = sorted(_shared(results))
-            ax.set_xticks(settings, [str(x) for x in settings], fontsize=8)
-            ax.minorticks_off()
-            if not MEASURES[measure].larger_is_better:
-                ax.set_yscale("log")
-                ax.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
-                ax.yaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
-                ax.yaxis.set_minor_formatter(NullFormatter())
+            ax.set(xlabel=setting, title=MEASURES[measure].label.partition(",")[0])
+            _scale(ax, sorted(_shared(results)), logarithmic=not MEASURES[measure].larger_is_better)
         handles, labels = axes[0].get_legend_handles_labels()
         figure.legend(handles, labels, loc="outside lower center", ncols=3, fontsize=9)
-        file = io.BytesIO()
-        figure.savefig(file, format="svg", metadata={"Date": None})
-    return "data:image/svg+xml;base64," + base64.b64encode(file.getvalue()).decode()
+    return figure
+
+
+def _scale(ax: Any, settings: Sequence[int], *, logarithmic: bool) -> None:
+    from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
+
+    ax.set_xscale("log")
+    ax.set_xticks(settings, [str(x) for x in settings], fontsize=8)
+    ax.minorticks_off()
+    if logarithmic:
+        ax.set_yscale("log")
+        ax.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+        ax.yaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
+        ax.yaxis.set_minor_formatter(NullFormatter())
 
 
 def _shared(results: Sequence[Result]) -> set[int]:
