@@ -18,6 +18,7 @@ FLAGS = [
     "--disable-sync",
     "--use-angle=swiftshader",
     "--enable-unsafe-swiftshader",
+    "--process-per-site",  # a page of a context begins in the process of the others
 ]
 
 

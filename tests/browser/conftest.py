@@ -5,9 +5,10 @@ A console error fails the test: three.js logs a shader that does not compile and
 
 import threading
 from base64 import b64decode
-from collections.abc import Generator, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Generator, Iterator
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -15,7 +16,7 @@ import pytest
 import uvicorn
 from chromium import chromium
 from patience import PATIENCE, wait_until
-from playwright.sync_api import Browser, ConsoleMessage, Page, expect
+from playwright.sync_api import Browser, BrowserContext, ConsoleMessage, Page, expect
 
 from halfway.colour import from_srgb
 from halfway.halfdiff import Grid
@@ -35,6 +36,10 @@ MATERIALS = (
 GRID = Grid.merl(60, 30, 36)
 expect.set_options(timeout=1000 * PATIENCE)
 SIZE = {"width": 820, "height": 760}
+COARSE = 0.25
+"""Pixels of the screen along one of the page, where no test looks at them: the rasteriser draws them all, until the picture has settled."""
+EMPTY = "empty"
+"""Where there is no explorer, at the same address."""
 
 
 @pytest.fixture(scope="session")
@@ -73,14 +78,12 @@ def browser() -> Iterator[Browser]:
 @contextmanager
 def opened(browser: Browser, **options: Any) -> Generator[Page]:
     """A page of its own."""
-    with browser.new_context(**options) as context:
+    with browser.new_context(**{"device_scale_factor": COARSE, **options}) as context:
         context.set_default_timeout(1000 * PATIENCE)
         yield context.new_page()
 
 
-WHOLE = (
-    "() => document.querySelector('.live').width >= document.querySelector('.material').clientWidth"
-)
+WHOLE = "() => document.querySelector('.live').width >= Math.floor(devicePixelRatio * document.querySelector('.material').clientWidth)"
 
 # From the drawing buffer, not a screenshot: neither scaled nor composited.
 DRAWN = """() => {
@@ -104,7 +107,8 @@ class Explorer:
     """Console errors that begin so are the test's own doing."""
 
     def open(self, fragment: str = "") -> None:
-        self.page.goto("about:blank")
+        if self.page.url != "about:blank":
+            self.page.goto(self.address + EMPTY)  # what differs in the fragment is one page
         self.page.goto(self.address + fragment)
         self.page.wait_for_selector("#app.ready")
 
@@ -186,18 +190,52 @@ def squares(picture: np.ndarray) -> np.ndarray:
     return cut.reshape(rows, SIDE, columns, SIDE, depth).mean(axis=(1, 3))
 
 
+@pytest.fixture(scope="session")
+def contexts(browser: Browser) -> Generator[Callable[[float], BrowserContext]]:
+    """The one context of each scale, with a page that keeps its process alive: the next page begins in half the time."""
+    with ExitStack() as stack:
+
+        @cache
+        def context(scale: float) -> BrowserContext:
+            page = stack.enter_context(
+                opened(
+                    browser,
+                    viewport=SIZE,
+                    device_scale_factor=scale,
+                    accept_downloads=True,
+                    color_scheme="dark",
+                )
+            )
+            page.context.route("**/" + EMPTY, lambda route: route.fulfill(body=""))
+            page.goto("http://127.0.0.1/" + EMPTY)  # of any port
+            return page.context
+
+        yield context
+
+
+@pytest.fixture(scope="module")
+def scale() -> float:
+    return COARSE
+
+
 @pytest.fixture
-def explorer(browser: Browser, address: str) -> Iterator[Explorer]:
+def explorer(
+    contexts: Callable[[float], BrowserContext], scale: float, address: str
+) -> Iterator[Explorer]:
     errors: list[str] = []
 
     def on_console(message: ConsoleMessage) -> None:
         if message.type == "error":
             errors.append(message.text)
 
-    with opened(browser, viewport=SIZE, accept_downloads=True, color_scheme="dark") as page:
-        page.on("console", on_console)
-        page.on("pageerror", lambda error: errors.append(str(error)))
-        explorer = Explorer(page, address)
-        yield explorer
+    page = contexts(scale).new_page()
+    page.on("console", on_console)
+    page.on("pageerror", lambda error: errors.append(str(error)))
+    explorer = Explorer(page, address)
+    yield explorer
+    page.unroute_all(behavior="ignoreErrors")
+    page.goto(address + EMPTY)
+    page.evaluate("localStorage.clear()")
+    page.close()
     unexpected = [error for error in errors if not error.startswith(explorer.expected)]
     assert not unexpected, "\n".join(unexpected)

@@ -27,6 +27,11 @@ SCENE_OF = {"sphere": SCENES["spheres"], "teapot": TEAPOT}
 
 
 @pytest.fixture(scope="module")
+def scale() -> float:
+    return 0.5
+
+
+@pytest.fixture(scope="module")
 def tables() -> dict[str, TabularBrdf]:
     return {name: anisotropic(*alphas) for name, alphas in ALPHAS.items()}
 

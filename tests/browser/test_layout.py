@@ -88,6 +88,7 @@ def right_of(explorer: Explorer, selector: str) -> float:
     return found["x"] + found["width"]
 
 
+@pytest.mark.parametrize("scale", [1.0], scope="module")
 def test_the_names_of_compared_rows_stand_below_their_pictures(explorer: Explorer) -> None:
     explorer.page.set_viewport_size(NARROW)
     explorer.open("#space=linear&stops=pink-felt,teflon&light=points&compare=paper")

@@ -32,6 +32,11 @@ LEVELS = 2
 """Half floats (.05 %), the fixed-point weights of the hardware filter and 8 bits: at most two levels, where the picture is smooth."""
 
 
+@pytest.fixture(scope="module")
+def scale() -> float:
+    return 0.5
+
+
 @dataclass
 class Picture:
     """Pixels of the page, and the camera that they belong to."""
@@ -152,7 +157,7 @@ def test_three_lights(explorer: Explorer, library: ProceduralLibrary, name: str)
     shown = settled(explorer, name, "points")
     brdf = library.brdf(name)
     agrees_under_points(shown, brdf)
-    assert difference_from_mitsuba(shown, SCENE, brdf, spp=32) < 0.015
+    assert difference_from_mitsuba(shown, SCENE, brdf, spp=128) < 0.015
 
 
 def test_a_mix_of_lobes_under_three_lights(explorer: Explorer, library: ProceduralLibrary) -> None:

@@ -21,6 +21,11 @@ MATERIAL = "pink-felt"
 """Matte: a shadow is as dark as it is, and little else is."""
 
 
+@pytest.fixture(scope="module")
+def scale() -> float:
+    return 0.5
+
+
 @pytest.mark.parametrize(("light", "samples", "spp"), [("points", 8, 64), ("studio", 48, 256)])
 def test_the_teapot_is_shadowed_as_in_mitsuba(
     explorer: Explorer, library: ProceduralLibrary, light: str, samples: int, spp: int

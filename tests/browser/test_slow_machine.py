@@ -19,6 +19,11 @@ COMMON = "#space=linear&pace=uniform&shape=teapot&stops="
 BEFORE = "cherry-235,teflon&t=0.05"
 
 
+@pytest.fixture(scope="module")
+def scale() -> float:
+    return 1.0
+
+
 def set_t(explorer: Explorer) -> None:
     explorer.set_t(0.95)
 
