@@ -8,7 +8,7 @@ import typer
 
 from ..locations import DEFAULT_LIBRARY
 from . import options
-from .attributes import changes, lines, to_json
+from .attributes import changes, to_json
 from .completion import complete_names
 from .console import say, show, work
 from .outputs import writing
@@ -118,8 +118,10 @@ def _say_given_up(recipe: "Recipe", like: str, lost: "Mapping[str, tuple[Any, An
 
 
 def _show(recipe: "Recipe", read: "Mapping[str, Any]", *, as_json: bool) -> None:
+    from halfway.instruments import described
+
     if as_json:
         print(json.dumps({"format": 1, **recipe.to_json(), "attributes": to_json(read)}, indent=1))
         return
     show(*(f"{weight:.6f}  {name}" for name, weight in recipe.to_json()["weights"].items()))
-    show(*lines(read))
+    show(*described(read, read))

@@ -1,7 +1,7 @@
 """The attributes that there are, by the names that people write."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from difflib import get_close_matches
 from typing import Any
 
@@ -118,6 +118,11 @@ _ALL = (
 )
 ATTRIBUTES: Mapping[str, Attribute] = {attribute.name: attribute for attribute in _ALL}
 """By name, in the order in which they are shown."""
+MAIN = (
+    *("gloss20", "gloss60", "gloss85", "haze", "highlight_width"),
+    *("albedo", "L", "a", "b", "body"),
+)
+"""Those that say in a few lines what a material is like."""
 
 
 def attribute(name: str) -> Attribute:
@@ -172,6 +177,12 @@ def of_readings(readings: Reading) -> dict[str, Any]:
     """The attributes that readings stand for, by name."""
     values = {name: attribute.of(readings) for name, attribute in ATTRIBUTES.items()}
     return {name: float(v) if np.ndim(v) == 0 else v for name, v in values.items()}
+
+
+def described(values: Mapping[str, Any], names: Iterable[str] = MAIN) -> list[str]:
+    """Some attributes of one material for people, a line each."""
+    rows = ((ATTRIBUTES[name], values[name]) for name in names)
+    return [f"{a.name:16}{a.written(value):>10} {a.unit:8}{a.label}" for a, value in rows]
 
 
 def table_of(what: Brdf | Recipe | str, *, library: str = "") -> TabularBrdf:
