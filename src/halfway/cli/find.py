@@ -42,6 +42,14 @@ Release = Annotated[
         help="Do not hold this of the highlight beside a body colour; again for more.",
     ),
 ]
+Lights = Annotated[
+    str,
+    typer.Option(
+        metavar="WHAT",
+        help="In which the picture was taken: .hdr, .exr, `studio`, or X,Y,Z to a light, right, up, to the viewer; X,Y,Z;X,Y,Z to several. "
+        "[default: that of halfway's own spheres]",
+    ),
+]
 Output = Annotated[
     Path | None,
     typer.Option("--output", "-o", metavar="FILE", help="A recipe, .json; or a material."),
@@ -58,6 +66,7 @@ def find(
     few: Few = False,
     clamp: Clamp = False,
     release: Release = [],  # noqa: B006
+    lights: Lights = "",
     output: Output = None,
     as_json: options.AsJson = False,
     force: options.Force = False,
@@ -68,21 +77,24 @@ def find(
     halfway find --like cherry-235 --set gloss60=35 -o glossy.json
     halfway find merl.brdflib --set L=40 --set a=20 --set b=10 --at-most gloss60=5
     halfway find --like teflon --set gloss60=20 --blend lobes -o shiny.json
-    halfway find --like sphere.png -o seen.json                         in the light in which routes are paced
+    halfway find --like sphere.png -o seen.json                         in the light of halfway's own spheres
+    halfway find --like photo.png --lights forest.exr -o seen.json      in that of a place
     halfway find --like scan.binary --set "body=#7a3b1e" -o new.binary  its highlight is held, unless --release gloss60
     """
     from halfway.control import Control, Wishes
     from halfway.export import write_material, write_recipe
+    from halfway.look import PACING_SCENE, SphereScene
     from halfway.recipes import Blend, NamedBrdf
 
-    from .arguments import ArgumentError, parse_targets
+    from .arguments import ArgumentError, parse_lights, parse_targets
 
     wishes = Wishes.of(parse_targets(exactly), parse_targets(at_most), parse_targets(at_least))
     if not like and not list(wishes.each()):
         raise ArgumentError(
             "there is nothing to find: give --set, --at-most, --at-least or --like."
         )
-    control = Control.of(lib, work=work())
+    scene = SphereScene.under(parse_lights(lights)) if lights else PACING_SCENE
+    control = Control.of(lib, scene=scene, work=work())
     recipe = control.find(
         wishes,
         like=like or None,
