@@ -166,10 +166,10 @@ class Control:
                 others = wishes.without(kind, name)
                 held = others.only(attribute(name).needs) if alone else others
                 if told := self._too_far(kind, name, target, held):
-                    return f"{told} Ask for that, let another wish go, or take the nearest with --clamp."
+                    return f"{told} Ask for that, or let another wish go; `halfway find --clamp` takes the nearest."
         return (
             f"no mix of {self.library.name} has {wishes}, and none with one of them less: "
-            "release some, or take the nearest with --clamp."
+            "let some go; `halfway find --clamp` takes the nearest."
         )
 
     def _too_far(self, kind: str, name: str, target: Any, held: Wishes) -> str | None:
