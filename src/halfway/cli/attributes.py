@@ -1,12 +1,11 @@
 """``halfway attributes``: numbers that people use of materials."""
 
-import json
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from .console import say, show, track, work
+from .console import say, show, show_json, track, work
 from .options import AsJson, Library, What
 
 if TYPE_CHECKING:
@@ -40,7 +39,7 @@ def attributes(
     labels = [material.label for material in materials]
     if as_json:
         named = zip(labels, read, seen, strict=True)
-        print(json.dumps([_document(*each) for each in named], indent=1))
+        show_json([_document(*each) for each in named])
     elif len(read) == 1:
         show(*described(read[0], read[0]))
         show(*(f"{name:22}{p.value:10.2f}  trust: {p.trust}" for name, p in seen[0].items()))

@@ -1,6 +1,5 @@
 """``halfway convert``, ``halfway info``, ``halfway diff`` and ``halfway fetch``: files in, files out."""
 
-import json
 import sys
 from enum import StrEnum
 from pathlib import Path
@@ -11,7 +10,7 @@ import typer
 from . import options
 from .attributes import to_json
 from .completion import complete_names
-from .console import say, show, work
+from .console import say, show, show_json, work
 from .outputs import writing
 
 if TYPE_CHECKING:
@@ -127,7 +126,7 @@ def _show_facts(
     """What materials are: a line each, or as JSON with more."""
     if as_json:
         documents = [{"format": 1, **material.facts(), **more} for material in materials]
-        print(json.dumps(documents, indent=1))
+        show_json(documents)
         return
     for material in materials:
         facts = material.facts()
@@ -174,7 +173,7 @@ def diff(
     sphere = quality(lit_sphere(second), lit_sphere(first))
     if as_json:
         seen = {"psnr": sphere.psnr, "relative_l1": sphere.relative_l1}
-        print(json.dumps({"format": 1, "lit_sphere": seen, **differences}, indent=1))
+        show_json({"format": 1, "lit_sphere": seen, **differences})
         return
     print(f"{'':14}{'to 80 degrees':>14}{'beyond':>10}")
     for name, apart in differences.items():

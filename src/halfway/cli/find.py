@@ -1,6 +1,5 @@
 """``halfway find``: the recipe that has what is asked for."""
 
-import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -10,7 +9,7 @@ from ..locations import DEFAULT_LIBRARY
 from . import options
 from .attributes import changes, to_json
 from .completion import complete_names
-from .console import say, show, work
+from .console import say, show, show_json, work
 from .outputs import writing
 
 if TYPE_CHECKING:
@@ -133,7 +132,7 @@ def _show(recipe: "Recipe", read: "Mapping[str, Any]", *, as_json: bool) -> None
     from halfway.instruments import described
 
     if as_json:
-        print(json.dumps({"format": 1, **recipe.to_json(), "attributes": to_json(read)}, indent=1))
+        show_json({"format": 1, **recipe.to_json(), "attributes": to_json(read)})
         return
     show(*(f"{weight:.6f}  {name}" for name, weight in recipe.to_json()["weights"].items()))
     show(*described(read, read))
