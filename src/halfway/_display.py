@@ -59,7 +59,7 @@ def route_png(route: "Route") -> bytes | None:
 
     weights = route.at(np.linspace(0, 1, N_SPHERES))
     try:
-        library = open_library(route.library.address or route.library.name)
+        library = open_library(route.library)
         return recipes_png(library, route.names, weights, route.blend)
     except (HalfwayError, OSError):
         return None

@@ -66,7 +66,7 @@ class Control:
 
         Pictures are compared in the light of ``scene``.
         """
-        opened = open_library(library) if isinstance(library, str) else library
+        opened = open_library(library)
         readings = Readings.fit(opened, work=work)
         looks = Looks.fit(opened, scene, work=work)
         return cls(opened, readings, looks, Nearness.of(looks, readings), mixer or Mixer(opened))

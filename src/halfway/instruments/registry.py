@@ -193,7 +193,7 @@ def table_of(what: Brdf | Recipe | str, *, library: str = "") -> TabularBrdf:
         case Brdf():
             return tabulate(what, what.own_grid)
         case Recipe():
-            return mix(open_library(library or what.library.address or what.library.name), what)
+            return mix(open_library(library or what.library), what)
         case str():
             materials = open_materials([what], library=library)
             if len(materials) != 1:
