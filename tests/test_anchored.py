@@ -169,12 +169,6 @@ def test_outside_the_hull_names_the_nearest_point_and_clamp_takes_it(space):
     assert_allclose(recipe.weights.sum(axis=1), 1)
 
 
-def test_neighbours_are_nearest_first_without_the_material_itself(space):
-    found = space.neighbours("material-3", 5)
-    assert "material-3" not in dict(found)
-    assert [d for _, d in found] == sorted(d for _, d in found)
-
-
 def test_paced_steps_look_equally_far_apart(space, images):
     """Largest step at most 1.1 times the mean, where uniform t gives more."""
     route = Route.through(space, ["material-0", "material-7", "material-3"])

@@ -120,7 +120,12 @@ def test_convert_and_info(run, lib, tmp_path):
     assert (tmp_path / "one.binary").read_bytes() == (
         tmp_path / "measured" / "material-1.binary"
     ).read_bytes()
-    assert "one: a table of 4 x 3 x 5 cells, albedo" in run("info", "one.binary")[1]
+    told = run("info", "one.binary")[1]
+    assert "one: a table of 4 x 3 x 5 cells, albedo" in told
+    (facts,) = json.loads(run("info", "one.binary", "--json")[1])
+    (read,) = json.loads(run("attributes", "one.binary", "--json")[1])
+    assert facts["attributes"] == read["attributes"]
+    assert f"gloss60{read['attributes']['gloss60']:19.4g} GU" in told
     assert "names no format" in run("convert", "one.binary", "one.exr")[2]
     write_merl(
         tmp_path / "no.binary", TabularBrdf(np.full((3, *GRID.shape), np.nan, np.float32), GRID)

@@ -246,6 +246,8 @@ def test_a_route_along_an_attribute_has_every_value_on_the_way():
         has = CONTROL.attributes(way.recipe(t))
         assert_allclose(has["gloss60"], (1 - t) * start + t * stop, rtol=1e-6)
     assert len(way.to_json(way.steps(5))["recipes"]) == 5
+    with pytest.raises(OutOfReachError, match="gloss60 = 5000: it goes from"):
+        along(LIBRARY, "m1", "gloss60", start, 5000, n=3)
 
 
 def test_the_command_line_finds_and_tells(tmp_path, monkeypatch, capsys):

@@ -24,15 +24,14 @@ from patience import PATIENCE
 
 from halfway.errors import FetchError, OutputError
 from halfway.fetch.catalogue import TENSOR_FILE, Download
-from halfway.fetch.download import download
+from halfway.fetch.download import Line, download
 
 
 def get(server, folder, *, n_bytes=N_BYTES, md5=MD5, url=None, n_tries=3, timeout=PATIENCE):
     item = Download(NAME, url or f"{server.url}/{NAME}", TENSOR_FILE, n_bytes, md5)
     with httpx.Client(follow_redirects=True, max_redirects=5, timeout=timeout) as client:
-        return download(
-            item, folder, client, progress=lambda *_: None, timeout=timeout, n_tries=n_tries, pause=0.001
-        )  # fmt: skip
+        line = Line(client, lambda *_: None, n_tries=n_tries, pause=0.001)
+        return download(item, folder, line)
 
 
 def timeout_of(answer):

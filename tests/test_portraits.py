@@ -9,7 +9,7 @@ import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 from PIL import Image
 
-from halfway._display import N_SPHERES, recipe_png
+from halfway._display import N_SPHERES, material_html
 from halfway.brdf import TabularBrdf
 from halfway.halfdiff import Grid
 from halfway.library import ProceduralLibrary
@@ -78,22 +78,25 @@ def test_a_route_is_a_row_of_spheres_from_its_first_stop_to_its_last(
 
 
 def test_a_recipe_whose_library_is_out_of_reach_is_text_alone() -> None:
-    assert recipe_png(Recipe.of("nowhere", {"red": 1.0})) is None
-    assert recipe_png(Recipe.of("builtin:merl-abc", {"octarine": 1.0})) is None
+    assert material_html(Recipe.of("nowhere", {"red": 1.0})) is None
+    assert material_html(Recipe.of("builtin:merl-abc", {"octarine": 1.0})) is None
 
 
-def test_a_notebook_shows_tables_recipes_and_routes_as_spheres() -> None:
+def test_a_notebook_shows_materials_as_spheres_beside_their_numbers() -> None:
     code = """
+import base64, re
 from IPython.core.interactiveshell import InteractiveShell
 shell = InteractiveShell.instance()
 import halfway
-formats, _ = shell.display_formatter.format({value})
-assert formats["image/png"].startswith(b"\\x89PNG"), formats
+recipe = halfway.Recipe.from_text("builtin:merl-abc", "teflon=1")
+for value in (recipe, halfway.open_library("builtin:merl-abc").material("teflon")):
+    html = shell.display_formatter.format(value)[0]["text/html"]
+    picture = base64.b64decode(re.search('base64,([^"]*)', html)[1])
+    assert picture.startswith(b"\\x89PNG"), html
+    shown = float(re.search(r"albedo +(\\S+)", html)[1])
+    assert abs(shown / halfway.attributes(value)["albedo"] - 1) < 1e-3, html
 """
-    recipe = 'halfway.Recipe.from_text("builtin:merl-abc", "teflon=1")'
-    table = f"halfway.mix(halfway.open_library('builtin:merl-abc'), {recipe})"
-    for value in (recipe, table):
-        subprocess.run([sys.executable, "-c", code.replace("{value}", value)], check=True)
+    subprocess.run([sys.executable, "-c", code], check=True)
 
 
 def test_a_route_says_where_it_goes(library: ProceduralLibrary) -> None:
@@ -103,8 +106,8 @@ def test_a_route_says_where_it_goes(library: ProceduralLibrary) -> None:
 
 def test_showing_loads_neither_mitsuba_nor_a_server() -> None:
     code = (
-        "import sys; from halfway import Recipe; from halfway._display import recipe_png;"
-        "recipe_png(Recipe.from_text('builtin:merl-abc', 'teflon=1'));"
+        "import sys; from halfway import Recipe; from halfway._display import material_html;"
+        "material_html(Recipe.from_text('builtin:merl-abc', 'teflon=1'));"
         "print([m for m in ('mitsuba', 'drjit', 'fastapi', 'matplotlib') if m in sys.modules])"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)

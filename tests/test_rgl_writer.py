@@ -1,5 +1,7 @@
 """Written RGL files: what they reflect, what the readers need in them, and what stock Mitsuba makes of them."""
 
+from io import BytesIO
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
@@ -11,7 +13,7 @@ from halfway.errors import FormatError, OutputError
 from halfway.formats import read_rgl
 from halfway.formats.rgl_writer import RESOLUTIONS, WAVELENGTHS, Resolution, write_rgl
 from halfway.formats.spectra import smooth_primaries
-from halfway.formats.tensor_file import read_tensor_file
+from halfway.formats.tensor_file import read_tensors
 from halfway.models import builtin
 from halfway.render.variant import load_mitsuba
 
@@ -102,7 +104,7 @@ def test_what_is_unmeasured_everywhere_is_refused(tmp_path):
 
 def test_negative_values_are_written_as_0(tmp_path):
     write_rgl(tmp_path / "x.bsdf", constant(-0.1), resolution=COARSE)
-    assert read_tensor_file(tmp_path / "x.bsdf")["rgb"].min() == 0
+    assert read_tensors(BytesIO((tmp_path / "x.bsdf").read_bytes()), "x.bsdf")["rgb"].min() == 0
 
 
 def test_a_measurement_comes_back_through_table_and_file(shared_data, tmp_path):
@@ -117,7 +119,7 @@ def test_a_measurement_comes_back_through_table_and_file(shared_data, tmp_path):
 def test_the_fields_are_those_that_the_readers_ask_for(tmp_path, glossy):
     """Names, types and shapes as pbrt-v4 and Mitsuba check them on loading."""
     write_rgl(tmp_path / "x.bsdf", glossy, resolution=COARSE, spectral=True)
-    read = read_tensor_file(tmp_path / "x.bsdf")
+    read = read_tensors(BytesIO((tmp_path / "x.bsdf").read_bytes()), "x.bsdf")
     n = len(WAVELENGTHS)
     expected = {
         "description": ("u1", (len("gold-paint"),)),
@@ -138,7 +140,7 @@ def test_the_fields_are_those_that_the_readers_ask_for(tmp_path, glossy):
 
 def test_an_rgb_file_has_rgb_in_the_place_of_spectra(tmp_path, glossy):
     write_rgl(tmp_path / "x.bsdf", glossy, resolution=COARSE)
-    read = read_tensor_file(tmp_path / "x.bsdf")
+    read = read_tensors(BytesIO((tmp_path / "x.bsdf").read_bytes()), "x.bsdf")
     assert read["rgb"].shape == (1, 8, 3, 16, 16)
     assert not {"spectra", "wavelengths"} & set(read)
 
@@ -153,7 +155,7 @@ def test_spectra_have_the_colours_they_were_made_of(tmp_path, glossy):
 def test_the_luminance_is_positive_and_small_below_the_horizon(tmp_path, glossy):
     """A density that is 0 where the reader interpolates cannot be sampled."""
     write_rgl(tmp_path / "x.bsdf", glossy, resolution=COARSE)
-    luminance = read_tensor_file(tmp_path / "x.bsdf")["luminance"]
+    luminance = read_tensors(BytesIO((tmp_path / "x.bsdf").read_bytes()), "x.bsdf")["luminance"]
     assert luminance.min() > 0
     grazing = luminance[0, -1]
     assert grazing.min() < 1e-3 * grazing.mean()

@@ -145,15 +145,9 @@ def test_a_material_left_out_has_no_weight_and_is_placed_by_the_others(space):
     assert_allclose(weights.sum(axis=1), 1)
 
 
-def test_neighbours_are_those_of_the_materials_point(space):
-    neighbours = space.neighbours("material-3", 4)
-    assert "material-3" not in dict(neighbours)
-    assert [name for name, _ in space.nearest(space.points[3], 5)] == [
-        "material-3",
-        *(name for name, _ in neighbours),
-    ]
+def test_a_material_that_is_not_there_is_told_with_those_that_are_near(space):
     with pytest.raises(SpaceError, match="'material-33' is not a material of small: did you mean"):
-        space.neighbours("material-33")
+        space.index("material-33")
 
 
 def test_a_space_is_short_to_print(space):

@@ -7,7 +7,7 @@ from typing import ClassVar
 import numpy as np
 
 from .._types import Angle, Directions, Mask, Part, Table, Values
-from ..halfdiff import Grid, HalfDiff, cosines, to_half_diff
+from ..halfdiff import Grid, HalfDiff, above_horizon, cosines, to_half_diff
 from .brdf import Brdf
 
 
@@ -36,14 +36,11 @@ class IsotropicModel(Brdf):
         """f_r in 1/sr, shape (3, ...), of arrays that broadcast together; both cosines are positive."""
 
     def eval(self, wi: Directions, wo: Directions) -> Values:
-        cos_i, cos_o = wi[..., 2], wo[..., 2]
-        lit = (cos_i > 0) & (cos_o > 0)
-        angles = to_half_diff(wi[lit], wo[lit])
-        values = np.zeros((*lit.shape, 3))
-        values[lit] = self.at(
-            angles.theta_h, angles.theta_d, angles.phi_d, cos_i[lit], cos_o[lit]
-        ).T
-        return values
+        return above_horizon(self._at_pairs, wi, wo)
+
+    def _at_pairs(self, wi: Directions, wo: Directions) -> np.ndarray:
+        theta_h, _, theta_d, phi_d = to_half_diff(wi, wo)
+        return self.at(theta_h, theta_d, phi_d, wi[:, 2], wo[:, 2])
 
     def _sample_rows(self, grid: Grid, rows: Part) -> Table:
         return self._sample_shaped(grid, rows, (3,))

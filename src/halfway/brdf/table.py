@@ -18,11 +18,10 @@ import numpy as np
 
 from .._types import Directions, Part, Table, Values
 from ..errors import FormatError
-from ..halfdiff import Grid
+from ..halfdiff import Grid, above_horizon
 from .brdf import Brdf
 
 Interpolation = Literal["trilinear", "floor"]
-_CHUNK = 1 << 14  # pairs looked up at once: what they need stays in a cache
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,16 +86,7 @@ class TabularBrdf(Brdf):
                 f"there is no interpolation {interpolation!r}: expected {' or '.join(lookups)}."
             )
         lookup = lookups[interpolation]
-        wi, wo = np.broadcast_arrays(wi, wo)
-        lit = (wi[..., 2] > 0) & (wo[..., 2] > 0)
-        above_i, above_o = wi[lit], wo[lit]
-        values = np.empty((len(above_i), 3))
-        for start in range(0, len(values), _CHUNK):
-            chunk = slice(start, start + _CHUNK)
-            values[chunk] = lookup(above_i[chunk], above_o[chunk]).blend(self.values).T
-        result = np.zeros((*lit.shape, 3))
-        result[lit] = values
-        return result
+        return above_horizon(lambda i, o: lookup(i, o).blend(self.values), wi, wo)
 
     def fingerprint(self) -> bytes:
         return hashlib.sha256(np.ascontiguousarray(self.values).data).digest()

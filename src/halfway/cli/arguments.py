@@ -89,6 +89,26 @@ def parse_point(text: str) -> np.ndarray:
     return point
 
 
+def parse_lights(text: str) -> np.ndarray:
+    """The directions written as ``-1,1,1`` or ``-1,1,1;1,0,1``, shape (n, 3); or the environment in a file, or ``studio``."""
+    from ..render import open_environment
+
+    try:
+        rows = [[float(number) for number in part.split(",")] for part in text.split(";")]
+    except ValueError:
+        return open_environment(text)
+    if not all(len(row) == 3 and np.isfinite(row).all() and _is_seen(*row) for row in rows):
+        raise ArgumentError(
+            f"--lights {text!r} are no directions to lights: expected x,y,z such as -1,1,1, z to the viewer, not from right behind; "
+            "or a file of an environment."
+        )
+    return np.array(rows)
+
+
+def _is_seen(x: float, y: float, z: float) -> bool:
+    return z > 0 or math.hypot(x, y) > 0
+
+
 def parse_targets(texts: Sequence[str]) -> dict[str, str]:
     """The attributes written as ``gloss60=35``, one each."""
     targets: dict[str, str] = {}

@@ -1,12 +1,11 @@
 """``halfway attributes``: numbers that people use of materials."""
 
-import json
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from .console import say, show, track, work
+from .console import say, show, show_json, track, work
 from .options import AsJson, Library, What
 
 if TYPE_CHECKING:
@@ -30,7 +29,7 @@ def attributes(
     halfway attributes chrome --perceived
     halfway attributes "gold-paint=0.7, teflon=0.3" --json
     """
-    from halfway.instruments import of_table
+    from halfway.instruments import described, of_table
     from halfway.recipes import open_materials
 
     materials = open_materials(words, library=library)
@@ -40,9 +39,9 @@ def attributes(
     labels = [material.label for material in materials]
     if as_json:
         named = zip(labels, read, seen, strict=True)
-        print(json.dumps([_document(*each) for each in named], indent=1))
+        show_json([_document(*each) for each in named])
     elif len(read) == 1:
-        show(*lines(read[0]))
+        show(*described(read[0], read[0]))
         show(*(f"{name:22}{p.value:10.2f}  trust: {p.trust}" for name, p in seen[0].items()))
     else:
         show("  ".join(f"{name:>10}" for name in (*read[0], *seen[0])) + "  material")
@@ -64,14 +63,6 @@ def _document(
     perceived = {name: p._asdict() for name, p in seen.items()}
     document = {"format": 1, "name": label, "attributes": to_json(read)}
     return {**document, "perceived": perceived} if seen else document
-
-
-def lines(values: Mapping[str, Any]) -> list[str]:
-    """The attributes of one material, a line each."""
-    from halfway.instruments import ATTRIBUTES
-
-    named = ((ATTRIBUTES[name], value) for name, value in values.items())
-    return [f"{a.name:16}{a.written(value):>10} {a.unit:8}{a.label}" for a, value in named]
 
 
 def changes(pairs: Mapping[str, tuple[Any, Any]]) -> str:

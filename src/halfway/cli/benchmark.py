@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from ..locations import DEFAULT_LIBRARY
-from .console import say, show, work
+from .console import say, show, show_json, work
 from .options import AsJson, Force, GridText, Lib
 
 if TYPE_CHECKING:
@@ -63,7 +63,6 @@ def benchmark(
     halfway benchmark merl_nbrdf.zip -o yardstick
     halfway benchmark merl.brdflib --split liu2023 --answers answers.csv --neural-process weights.h5
     """
-    import json
     from contextlib import nullcontext
 
     from halfway import yardstick
@@ -93,7 +92,7 @@ def benchmark(
         with filling(folder, "benchmark", force=force) as scratch:
             yardstick.write_page(scratch, measured)
     if as_json:
-        print(json.dumps(measured.to_json(), indent=1))
+        show_json(measured.to_json())
     else:
         show(*measured.lines())
     if folder:

@@ -1,13 +1,12 @@
 """``halfway check``: whether tables are physically sound."""
 
-import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from ..errors import HalfwayError
-from .console import say, show, work
+from .console import say, show, show_json, work
 from .options import AsJson, Force, Library, What
 from .outputs import writing
 
@@ -50,7 +49,7 @@ def check(
     found = work().run(_card, materials, label="Checking")
     cards = list(zip(names, found, strict=True))
     if as_json:
-        print(json.dumps([_as_json(*card) for card in cards], indent=1))
+        show_json([_as_json(*card) for card in cards])
     else:
         show(*(_as_line(*card) for card in cards))
     n_unread = sum(isinstance(card, HalfwayError) for _, card in cards)

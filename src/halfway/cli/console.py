@@ -1,5 +1,6 @@
 """How the command line talks: data to stdout, talk and progress to stderr, a mistake in one line."""
 
+import json
 import os
 import sys
 import time
@@ -39,6 +40,11 @@ def show(*lines: str, end: str = "\n") -> None:
     """Lines of the answer, on stdout; names in them may hold anything."""
     for line in lines:
         print(shown(line), end=end)
+
+
+def show_json(document: object) -> None:
+    """The answer for programs, on stdout."""
+    print(json.dumps(document, indent=1))
 
 
 def track(items: Iterable[T], label: str, total: int) -> Iterable[T]:

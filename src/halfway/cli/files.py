@@ -1,20 +1,24 @@
 """``halfway convert``, ``halfway info``, ``halfway diff`` and ``halfway fetch``: files in, files out."""
 
-import json
 import sys
 from enum import StrEnum
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from . import options
+from .attributes import to_json
 from .completion import complete_names
-from .console import say, show, work
+from .console import say, show, show_json, work
 from .outputs import writing
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
     import numpy as np
+
+    from ..recipes import NamedBrdf
 
 Material = Annotated[
     str,
@@ -94,29 +98,45 @@ def convert(
 
 
 def info(source: Material, as_json: options.AsJson = False, library: options.Library = "") -> None:
-    """Say what a file is: format, grid, source, colour.
+    """Say what a file is: format, grid, source, colour; and of one material its gloss, haze, albedo and colour.
 
     \b
     halfway info gold.binary
     halfway info builtin:merl-abc:teflon
     """
+    from halfway.instruments import described, of_table
     from halfway.recipes import open_materials
 
-    documents: list[object] = []
-    for material in open_materials([source], library=library):
+    materials = open_materials([source], library=library)
+    if len(materials) > 1:
+        _show_facts(materials, {}, as_json=as_json)
+        return
+    # One that is mixed is mixed once.
+    brdf = materials[0].load()
+    material = materials[0]._replace(load=lambda: brdf)
+    values = of_table(material.table())
+    _show_facts([material], {"attributes": to_json(values)}, as_json=as_json)
+    if not as_json:
+        show(*described(values))
+
+
+def _show_facts(
+    materials: "Sequence[NamedBrdf]", more: "Mapping[str, Any]", *, as_json: bool
+) -> None:
+    """What materials are: a line each, or as JSON with more."""
+    if as_json:
+        documents = [{"format": 1, **material.facts(), **more} for material in materials]
+        show_json(documents)
+        return
+    for material in materials:
         facts = material.facts()
         albedo = facts["albedo_20_degrees"]
         colour = " ".join(f"{value:.3f}" for value in albedo)
         origin = f", {facts['description']}" if facts["description"] else ""
-        if as_json:
-            documents.append({"format": 1, **facts})
-        else:
-            show(
-                f"{material.label}: {facts['is']}{origin}, albedo at 20 degrees {colour}",
-                end=_swatch(albedo),
-            )
-    if as_json:
-        print(json.dumps(documents, indent=1))
+        show(
+            f"{material.label}: {facts['is']}{origin}, albedo at 20 degrees {colour}",
+            end=_swatch(albedo),
+        )
 
 
 def diff(
@@ -153,7 +173,7 @@ def diff(
     sphere = quality(lit_sphere(second), lit_sphere(first))
     if as_json:
         seen = {"psnr": sphere.psnr, "relative_l1": sphere.relative_l1}
-        print(json.dumps({"format": 1, "lit_sphere": seen, **differences}, indent=1))
+        show_json({"format": 1, "lit_sphere": seen, **differences})
         return
     print(f"{'':14}{'to 80 degrees':>14}{'beyond':>10}")
     for name, apart in differences.items():

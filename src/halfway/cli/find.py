@@ -1,6 +1,5 @@
 """``halfway find``: the recipe that has what is asked for."""
 
-import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -8,9 +7,9 @@ import typer
 
 from ..locations import DEFAULT_LIBRARY
 from . import options
-from .attributes import changes, lines, to_json
+from .attributes import changes, to_json
 from .completion import complete_names
-from .console import say, show, work
+from .console import say, show, show_json, work
 from .outputs import writing
 
 if TYPE_CHECKING:
@@ -42,6 +41,14 @@ Release = Annotated[
         help="Do not hold this of the highlight beside a body colour; again for more.",
     ),
 ]
+Lights = Annotated[
+    str,
+    typer.Option(
+        metavar="WHAT",
+        help="In which the picture was taken: .hdr, .exr, `studio`, or X,Y,Z to a light, right, up, to the viewer; X,Y,Z;X,Y,Z to several. "
+        "[default: that of halfway's own spheres]",
+    ),
+]
 Output = Annotated[
     Path | None,
     typer.Option("--output", "-o", metavar="FILE", help="A recipe, .json; or a material."),
@@ -58,6 +65,7 @@ def find(
     few: Few = False,
     clamp: Clamp = False,
     release: Release = [],  # noqa: B006
+    lights: Lights = "",
     output: Output = None,
     as_json: options.AsJson = False,
     force: options.Force = False,
@@ -68,21 +76,24 @@ def find(
     halfway find --like cherry-235 --set gloss60=35 -o glossy.json
     halfway find merl.brdflib --set L=40 --set a=20 --set b=10 --at-most gloss60=5
     halfway find --like teflon --set gloss60=20 --blend lobes -o shiny.json
-    halfway find --like sphere.png -o seen.json                         in the light in which routes are paced
+    halfway find --like sphere.png -o seen.json                         in the light of halfway's own spheres
+    halfway find --like photo.png --lights forest.exr -o seen.json      in that of a place
     halfway find --like scan.binary --set "body=#7a3b1e" -o new.binary  its highlight is held, unless --release gloss60
     """
     from halfway.control import Control, Wishes
     from halfway.export import write_material, write_recipe
+    from halfway.look import PACING_SCENE, SphereScene
     from halfway.recipes import Blend, NamedBrdf
 
-    from .arguments import ArgumentError, parse_targets
+    from .arguments import ArgumentError, parse_lights, parse_targets
 
     wishes = Wishes.of(parse_targets(exactly), parse_targets(at_most), parse_targets(at_least))
     if not like and not list(wishes.each()):
         raise ArgumentError(
             "there is nothing to find: give --set, --at-most, --at-least or --like."
         )
-    control = Control.of(lib, work=work())
+    scene = SphereScene.under(parse_lights(lights)) if lights else PACING_SCENE
+    control = Control.of(lib, scene=scene, work=work())
     recipe = control.find(
         wishes,
         like=like or None,
@@ -118,8 +129,10 @@ def _say_given_up(recipe: "Recipe", like: str, lost: "Mapping[str, tuple[Any, An
 
 
 def _show(recipe: "Recipe", read: "Mapping[str, Any]", *, as_json: bool) -> None:
+    from halfway.instruments import described
+
     if as_json:
-        print(json.dumps({"format": 1, **recipe.to_json(), "attributes": to_json(read)}, indent=1))
+        show_json({"format": 1, **recipe.to_json(), "attributes": to_json(read)})
         return
     show(*(f"{weight:.6f}  {name}" for name, weight in recipe.to_json()["weights"].items()))
-    show(*lines(read))
+    show(*described(read, read))

@@ -1,13 +1,12 @@
 """``halfway fit``: an analytic model in place of a table, for programs without a node for measured materials."""
 
-import json
 from enum import StrEnum
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from .console import say, show, track
+from .console import say, show, show_json, track
 from .options import AsJson, Force, Library, What
 from .outputs import writing
 
@@ -80,7 +79,7 @@ def fit(
 
             pictures.write(picture, fit_sheet(materials[0].table(), fits[0]))
     if as_json:
-        print(json.dumps([fit.to_json() for fit in fits], indent=1))
+        show_json([fit.to_json() for fit in fits])
     else:
         show(*(f"{fit.name}, {fit.summary}" for fit in fits))
     if output:

@@ -1,6 +1,5 @@
 """``halfway library``: build and look at libraries."""
 
-import json
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Annotated
 
@@ -9,7 +8,7 @@ import typer
 from ..locations import DEFAULT_LIBRARY
 from .check import UNREADABLE
 from .compact import compact
-from .console import say, show, working
+from .console import say, show, show_json, working
 from .options import AsJson, GridText, Lib, Scheduler
 
 if TYPE_CHECKING:
@@ -100,7 +99,7 @@ def info(
     library = open_library(lib)
     facts = library.facts()
     if as_json:
-        print(json.dumps({"format": 1} | facts, indent=1))
+        show_json({"format": 1} | facts)
         return
     show(f"{library.name}: {len(library)} materials on {library.grid}")
     for key in ("description", "source", "licence"):
@@ -133,7 +132,7 @@ def verify(
     kinds = {"damaged": verdict.damaged, "changed": verdict.changed}
     if as_json:
         document = {"format": 1, "library": lib, "ok": verdict.ok, "right": verdict.n_right}
-        print(json.dumps(document | kinds, indent=1))
+        show_json(document | kinds)
     else:
         for name in verdict.damaged:
             show(f"damaged  {name}")

@@ -1,6 +1,5 @@
 """``halfway plan``: which directions to measure."""
 
-import json
 from pathlib import Path
 from typing import Annotated
 
@@ -8,7 +7,7 @@ import typer
 
 from ..locations import DEFAULT_LIBRARY
 from . import options
-from .console import say, show, work
+from .console import say, show, show_json, work
 from .outputs import writing
 
 Output = Annotated[
@@ -63,7 +62,7 @@ def plan(
         keys = ("theta_i", "phi_i", "theta_o", "phi_o")
         pairs = [dict(zip(keys, row, strict=True)) for row in angles.round(6).tolist()]
         facts = {"format": 1, "unit": "degrees", "pairs": pairs, "left": found.left.tolist()}
-        print(json.dumps(facts, indent=1))
+        show_json(facts)
     else:
         say("theta_i  phi_i  theta_o  phi_o (degrees); what is then still unknown (a factor)")
         rows = zip(angles, np.exp(found.left), strict=True)

@@ -1,6 +1,5 @@
 """``halfway recover``: a whole material from a few measured directions."""
 
-import json
 from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -10,7 +9,7 @@ import typer
 from ..locations import DEFAULT_LIBRARY
 from . import options
 from .completion import complete_library
-from .console import say, show, work
+from .console import say, show, show_json, work
 from .outputs import writing
 
 if TYPE_CHECKING:
@@ -144,7 +143,7 @@ def _report(
         facts = {"format": 1, "n": n, "n_used": n_used, "eta": regression.eta}
         facts |= {"width": regression.width if np.isfinite(regression.width) else None}
         facts |= {"leave_one_out": setup.best_error, "missed": missed, **recipe.to_json()}
-        print(json.dumps(facts, indent=1))
+        show_json(facts)
         return
     means = zip(recipe.weights.mean(axis=0), recipe.names, strict=True)
     show(*(f"{weight:.6f}  {name}" for weight, name in means))

@@ -1,6 +1,5 @@
 """``halfway report``: the paper's table and figures, for any library."""
 
-import json
 from contextlib import nullcontext
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Annotated
@@ -8,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ..locations import DEFAULT_LIBRARY
-from .console import say, show, working
+from .console import say, show, show_json, working
 from .options import Force, Lib, Scheduler
 
 if TYPE_CHECKING:
@@ -80,7 +79,7 @@ def report(
         if scratch:
             write_report(scratch, library, pca, n_components=counts, spaces=spaces)
     if as_json:
-        print(json.dumps(report.to_json(), indent=1))
+        show_json(report.to_json())
     else:
         about = f", {report.description}" if report.description else ""
         show(f"{library.name}: {len(library)} materials{about}", *report.lines())
@@ -93,4 +92,7 @@ def _say_plan(library: "Library", as_json: bool) -> None:
 
     plan = PcaPlan.of(library).timed(library)
     facts = {"format": 1, **asdict(plan)}
-    print(json.dumps(facts, indent=1) if as_json else "\n".join(plan.lines()))
+    if as_json:
+        show_json(facts)
+    else:
+        show(*plan.lines())

@@ -1,6 +1,5 @@
 """``halfway sample``: a set of new materials to train on."""
 
-import json
 from pathlib import Path
 from typing import Annotated
 
@@ -8,7 +7,7 @@ import typer
 
 from ..locations import DEFAULT_LIBRARY
 from . import options
-from .console import say, show, working
+from .console import say, show, show_json, working
 from .options import SpaceName, TableFormat
 
 SetFolder = Annotated[
@@ -92,7 +91,7 @@ def sample(
         folder = to_location(output)
         written = write_set(folder, samples, format=format, work=work)
     if as_json:
-        print(json.dumps({"format": 1, "n": len(samples), **samples.diversity.to_json()}, indent=1))
+        show_json({"format": 1, "n": len(samples), **samples.diversity.to_json()})
     else:
         show(*samples.diversity.lines())
     tables = f", {written.n_written} tables written" if format != "none" else ""

@@ -1,6 +1,5 @@
 """``halfway space``: where the materials of a library, and others, are."""
 
-import json
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Annotated
 
@@ -9,7 +8,7 @@ import typer
 from ..locations import DEFAULT_LIBRARY
 from . import options
 from .completion import complete_names
-from .console import say, show, work
+from .console import say, show, show_json, work
 from .options import SpaceName
 
 if TYPE_CHECKING:
@@ -55,7 +54,7 @@ def space(
         found = _alike(library, near, newcomer, n)
         _show_near(chosen, near, point, found, as_json)
     elif as_json:
-        print(json.dumps(chosen.to_json(), indent=1))
+        show_json(chosen.to_json())
     else:
         say(f"in {chosen.unit}")
         show(_line(chosen.coordinates, "material"), *map(_line, chosen.points, chosen.names))
@@ -102,7 +101,7 @@ def _show_near(
     position = space.at(point, clamp=True)
     if as_json:
         where = {"point": point.tolist(), "inside": position.inside, "mix": position.point.tolist()}
-        print(json.dumps({**space.to_json(), "near": where, "neighbours": dict(others)}, indent=1))
+        show_json({**space.to_json(), "near": where, "neighbours": dict(others)})
         return
     say(f"in {space.unit}")
     show(_line(space.coordinates, "material"), _line(point, name))

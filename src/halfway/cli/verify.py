@@ -1,11 +1,10 @@
 """``halfway verify``: whether a folder still holds what was written there."""
 
-import json
 from typing import Annotated
 
 import typer
 
-from .console import say, show, work
+from .console import say, show, show_json, work
 from .options import AsJson
 
 N_SHOWN = 20
@@ -33,7 +32,7 @@ def verify(
     kinds = {"missing": verdict.missing, "changed": verdict.changed, "foreign": verdict.foreign}
     if as_json:
         document = {"format": 1, "folder": folder, "ok": verdict.ok, "right": verdict.n_right}
-        print(json.dumps(document | kinds, indent=1))
+        show_json(document | kinds)
     else:
         for kind, names in kinds.items():
             for name in names[:N_SHOWN]:

@@ -1,6 +1,5 @@
 """``halfway view`` and ``halfway doctor``."""
 
-import json
 from dataclasses import asdict
 from pathlib import Path
 from typing import Annotated
@@ -8,7 +7,7 @@ from typing import Annotated
 import typer
 
 from ..locations import DEFAULT_LIBRARY
-from .console import say, work
+from .console import say, show_json, work
 from .options import AsJson, Force, Lib
 
 
@@ -74,7 +73,7 @@ def doctor(as_json: AsJson = False) -> None:
 
     findings = examine()
     if as_json:
-        print(json.dumps({"format": 1, "findings": [asdict(one) for one in findings]}, indent=1))
+        show_json({"format": 1, "findings": [asdict(one) for one in findings]})
         return
     for finding in findings:
         print(f"{finding.what:14} {finding.found or 'missing: ' + finding.cost}")

@@ -20,7 +20,7 @@ from ..instruments import (
     read_table,
 )
 from ..library import Library, LibraryRef, open_library
-from ..look import Looks
+from ..look import PACING_SCENE, Looks, SphereScene
 from ..recipes import Blend, Mixer, Recipe
 from ..tasks import HERE, Work
 from .nearness import Nearness
@@ -55,12 +55,20 @@ class Control:
 
     @classmethod
     def of(
-        cls, library: Library | str, *, mixer: Mixer | None = None, work: Work = HERE
+        cls,
+        library: Library | str,
+        *,
+        scene: SphereScene = PACING_SCENE,
+        mixer: Mixer | None = None,
+        work: Work = HERE,
     ) -> "Control":
-        """What is known of ``library``: read off its tables once, and kept in the cache; its ``mixer``, where there is one."""
-        opened = open_library(library) if isinstance(library, str) else library
+        """What is known of ``library``: read off its tables once, and kept in the cache; its ``mixer``, where there is one.
+
+        Pictures are compared in the light of ``scene``.
+        """
+        opened = open_library(library)
         readings = Readings.fit(opened, work=work)
-        looks = Looks.fit(opened, work=work)
+        looks = Looks.fit(opened, scene, work=work)
         return cls(opened, readings, looks, Nearness.of(looks, readings), mixer or Mixer(opened))
 
     def find(
@@ -147,7 +155,8 @@ class Control:
         if like is None:
             return Reference(self.nearness.points[wishes.nearest(self.readings.values)])
         if isinstance(like, Recipe):
-            return Reference.seen(self.looks.of(like), self.reading(like))
+            readings = self.reading(like)
+            return Reference(self.nearness.seen(self.looks.of(like), readings), readings)
         return Reference.of(like, self.library, self.readings, self.nearness)
 
     def out_of_reach(self, wishes: Wishes) -> str:
@@ -157,10 +166,10 @@ class Control:
                 others = wishes.without(kind, name)
                 held = others.only(attribute(name).needs) if alone else others
                 if told := self._too_far(kind, name, target, held):
-                    return f"{told} Ask for that, let another wish go, or take the nearest with --clamp."
+                    return f"{told} Ask for that, or let another wish go; `halfway find --clamp` takes the nearest."
         return (
             f"no mix of {self.library.name} has {wishes}, and none with one of them less: "
-            "release some, or take the nearest with --clamp."
+            "let some go; `halfway find --clamp` takes the nearest."
         )
 
     def _too_far(self, kind: str, name: str, target: Any, held: Wishes) -> str | None:

@@ -3,8 +3,11 @@
 from collections.abc import Collection, Mapping
 from typing import Any
 
+import numpy as np
+
 from ..errors import ControlError, OutOfReachError
 from ..library import Library
+from ..look import PACING_SCENE, SphereScene
 from ..recipes import Blend, Recipe
 from ..tasks import HERE, Work
 from .control import Control, Range
@@ -23,6 +26,7 @@ def find(
     few: bool = False,
     clamp: bool = False,
     release: Collection[str] = (),
+    lights: np.ndarray | None = None,
     work: Work = HERE,
 ) -> Recipe:
     """The recipe that has what is asked for, and of those the one nearest to a reference.
@@ -49,6 +53,9 @@ def find(
         Where no mix has all that is asked for, the one that misses it least.
     release : collection of str
         What need not be held: of ``gloss20``, ``gloss60``, ``gloss85``, ``haze``, ``highlight_width``.
+    lights : array, optional
+        In which a picture was taken, and pictures are compared: directions to parallel lights, shape (n, 3), x to the right, y up, z
+        to the viewer; or what surrounds the sphere, shape (height, width, 3), as `halfway.render.open_environment` gives it.
     work : Work
         Who sees how far it is, and where what is read of the library is kept.
 
@@ -64,7 +71,8 @@ def find(
         raise ControlError(
             "there is nothing to find: expected an attribute, or what it shall be like."
         )
-    control = Control.of(library, work=work)
+    scene = PACING_SCENE if lights is None else SphereScene.under(lights)
+    control = Control.of(library, scene=scene, work=work)
     return control.find(
         wishes, like=like, blend=Blend(blend), few=few, clamp=clamp, release=release
     )

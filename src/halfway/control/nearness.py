@@ -18,7 +18,7 @@ from jaxtyping import Float64, Int
 
 from .._types import Mask
 from ..instruments import ATTRIBUTES, Readings
-from ..look import PACING_SCENE, Looks
+from ..look import Looks, SphereScene
 
 N_PARTS = 6
 """Of the picture, along each side."""
@@ -37,14 +37,20 @@ class Nearness:
     points: Float64[np.ndarray, "N d"]
     groups: tuple[str, ...]
     """Of each number."""
+    scene: SphereScene
+    """In which they are pictured."""
 
     @classmethod
     def of(cls, looks: Looks, readings: Readings) -> "Nearness":
         """The numbers of a library, by its pictures and readings."""
-        points = numbers(looks.images, readings.values)
+        points = _numbers(looks.scene, looks.images, readings.values)
         n_picture = points.shape[1] - len(REFLECTIONS) - 3
         groups = np.repeat(GROUPS, [n_picture, len(REFLECTIONS), 3])
-        return cls(points, tuple(groups.tolist()))
+        return cls(points, tuple(groups.tolist()), looks.scene)
+
+    def seen(self, picture: np.ndarray, readings: np.ndarray) -> Float64[np.ndarray, " d"]:
+        """The numbers of a material, by its picture in the scene and its readings."""
+        return _numbers(self.scene, picture[None], readings[None])[0]
 
     def scaled(
         self, reference: Float64[np.ndarray, " d"], *, held: Collection[str]
@@ -73,10 +79,11 @@ class Nearness:
         return self.points[:, np.array(self.groups) == group]
 
 
-def numbers(pictures: np.ndarray, readings: np.ndarray) -> Float64[np.ndarray, "N d"]:
-    """The numbers of materials, by their pictures in the scene that routes are paced in, and their readings."""
+def _numbers(
+    scene: SphereScene, pictures: np.ndarray, readings: np.ndarray
+) -> Float64[np.ndarray, "N d"]:
     reflections = [ATTRIBUTES[name].of(readings) / 100 for name in REFLECTIONS]
-    means = part_means(pictures, PACING_SCENE.mask())
+    means = part_means(pictures, scene.mask())
     return np.concatenate(
         [means, np.stack(reflections, axis=1), ATTRIBUTES["body"].of(readings)], axis=1
     )

@@ -1,7 +1,7 @@
 """A picture of a lit sphere, as something that a recipe may be like.
 
-The picture is square and the sphere fills it, in the light in which routes are paced (`halfway.look.PACING_SCENE`), as
-halfway's own spheres are drawn. Its exposure is free: it is the one at which some mix of the library's materials is nearest,
+The picture is square and the sphere fills it, in the light of a scene (`halfway.look.SphereScene`): that in which routes are paced
+and halfway's own spheres are drawn, or the one that the picture was taken in. Its exposure is free: it is the one at which some mix of the library's materials is nearest,
 
     min over v >= 0 of |P v - picture|^2        w = v / sum v,   exposure = sum v
 

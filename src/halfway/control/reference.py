@@ -10,9 +10,9 @@ from ..brdf import Brdf
 from ..colour import from_hex
 from ..instruments import Readings, read_table, table_of
 from ..library import Library
-from ..look import PACING_SCENE, SphereOperator
+from ..look import SphereOperator
 from ..recipes import Recipe, split_address
-from .nearness import Nearness, numbers
+from .nearness import Nearness
 from .pictures import PICTURES, picture_numbers
 
 Like = str | Recipe | Brdf | None
@@ -32,7 +32,7 @@ class Reference(NamedTuple):
     ) -> "Reference":
         """Anything but a recipe of the library."""
         if not isinstance(like, str):
-            return cls._of_table(like)
+            return cls._of_table(like, nearness)
         if like in library.names:
             i = library.index(like)
             return cls(nearness.points[i], readings.values[i])
@@ -42,15 +42,11 @@ class Reference(NamedTuple):
             materials = nearness.of_group("picture")
             return cls(nearness.alone("picture", picture_numbers(Path(like), materials)))
         is_addressed = len(split_address(like)) > 1
-        return cls._of_table(like, library="" if is_addressed else library.address)
+        return cls._of_table(like, nearness, library="" if is_addressed else library.address)
 
     @classmethod
-    def _of_table(cls, what: str | Brdf, *, library: str = "") -> "Reference":
+    def _of_table(cls, what: str | Brdf, nearness: Nearness, *, library: str = "") -> "Reference":
         table = table_of(what, library=library)
-        picture = SphereOperator.of(PACING_SCENE, table.grid).picture(table.values.reshape(3, -1))
-        return cls.seen(picture, read_table(table))
-
-    @classmethod
-    def seen(cls, picture: np.ndarray, readings: np.ndarray) -> "Reference":
-        """A material, by its picture in the scene that routes are paced in, and its readings."""
-        return cls(numbers(picture[None], readings[None])[0], readings)
+        operator = SphereOperator.of(nearness.scene, table.grid)
+        readings = read_table(table)
+        return cls(nearness.seen(operator.picture(table.values.reshape(3, -1)), readings), readings)

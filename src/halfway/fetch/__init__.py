@@ -7,10 +7,13 @@ import httpx
 
 from ..files import replacing
 from .catalogue import Dataset, Download, dataset, rgl_names
-from .download import Progress, download
+from .download import Line, Progress, download
 from .unpack import unpack
 
 __all__ = ["Dataset", "Download", "Fetched", "Progress", "dataset", "fetch", "rgl_names"]
+
+TIMEOUT = 30.0
+"""Seconds without an answer."""
 
 
 @dataclass(frozen=True)
@@ -32,9 +35,6 @@ def fetch(
     *,
     base_url: str = "",
     progress: Progress | None = None,
-    timeout: float = 30.0,
-    n_tries: int = 5,
-    pause: float = 0.5,
 ) -> Fetched:
     """Get a data set into ``folder``; what is there already and verified is not fetched again.
 
@@ -48,12 +48,6 @@ def fetch(
         A mirror: the address before the files' names.
     progress : callable, optional
         Called with a file's name, the bytes that are there, and how many it will have (None where that is not known).
-    timeout : float
-        Seconds without an answer, or nearly none, after which a connection counts as cut.
-    n_tries : int
-        How often one file is tried in a row before giving up.
-    pause : float
-        Seconds before the second try; doubled with each.
 
     Raises
     ------
@@ -64,13 +58,10 @@ def fetch(
     """
     wanted = dataset(name, base_url=base_url)
     folder = Path(folder)
-    report: Progress = progress or _silent
     # A redirect may lead elsewhere, but only to http(s); proxies are taken from the environment, as users expect.
-    with httpx.Client(follow_redirects=True, max_redirects=5, timeout=timeout) as client:
-        files = [
-            download(item, folder, client, progress=report, timeout=timeout, n_tries=n_tries, pause=pause)
-            for item in wanted.downloads
-        ]  # fmt: skip
+    with httpx.Client(follow_redirects=True, max_redirects=5, timeout=TIMEOUT) as client:
+        line = Line(client, progress or _silent)
+        files = [download(item, folder, line) for item in wanted.downloads]
     licence = folder / f"{wanted.name}.licence.txt"
     with replacing(licence) as temporary:
         temporary.write_text(_licence(wanted), encoding="utf-8")

@@ -6,11 +6,12 @@ for with ``If-Range``); otherwise the file is begun again.
 """
 
 import hashlib
+import math
 import time
 from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
-from typing import BinaryIO
+from typing import BinaryIO, NamedTuple
 
 import httpx
 
@@ -34,19 +35,24 @@ class _Cut(Exception):  # noqa: N818 (it never leaves this module)
     """The connection failed in a way that another try may mend."""
 
 
-def download(
-    item: Download,
-    folder: Path,
-    client: httpx.Client,
-    *,
-    progress: Progress,
-    timeout: float,
-    n_tries: int,
-    pause: float,
-) -> Path:
-    """The path of ``item`` in ``folder``, downloaded if it is not there already, and verified.
+class Line(NamedTuple):
+    """How files are asked for."""
 
-    A try that brings much of the file does not count against ``n_tries``.
+    client: httpx.Client
+    progress: Progress
+    n_tries: int = 5
+    """Of one file, in a row; one that brings much of the file does not count."""
+    pause: float = 0.5
+    """Seconds before the second try; doubled with each."""
+
+    @property
+    def timeout(self) -> float:
+        """Seconds without an answer, or nearly none, after which a connection counts as cut."""
+        return self.client.timeout.read or math.inf
+
+
+def download(item: Download, folder: Path, line: Line) -> Path:
+    """The path of ``item`` in ``folder``, downloaded if it is not there already, and verified.
 
     Raises
     ------
@@ -60,7 +66,7 @@ def download(
     with replacing(path) as temporary:
         part = path.with_name(f".{path.name}.part")
         if not (part.is_file() and item.md5 and _fault(part, item) is None):
-            _get_all(item, part, client, progress, timeout, n_tries, pause)
+            _get_all(item, part, line)
         fault = _fault(part, item)
         if fault is not None:
             _discard(part)
@@ -72,43 +78,33 @@ def download(
     return path
 
 
-def _get_all(
-    item: Download,
-    part: Path,
-    client: httpx.Client,
-    progress: Progress,
-    timeout: float,
-    n_tries: int,
-    pause: float,
-) -> None:
+def _get_all(item: Download, part: Path, line: Line) -> None:
     n_failed = 0
     while True:
         before = _size(part)
         try:
-            _get(item, part, client, progress, timeout)
+            _get(item, part, line)
         except _Cut as cut:
             n_failed = 0 if _size(part) - before > _WORTH_IT else n_failed + 1
-            if n_failed >= n_tries:
+            if n_failed >= line.n_tries:
                 raise FetchError(
                     f"{item.file} could not be fetched: {cut}. {_later(part)}"
                 ) from cut
-            time.sleep(pause * 2**n_failed)
+            time.sleep(line.pause * 2**n_failed)
         else:
             return
 
 
-def _get(
-    item: Download, part: Path, client: httpx.Client, progress: Progress, timeout: float
-) -> None:
+def _get(item: Download, part: Path, line: Line) -> None:
     """One request: the rest of the file, or all of it."""
     headers = {"Accept-Encoding": "identity", **_resume(item, part)}
     try:
-        with client.stream("GET", item.url, headers=headers) as response:
+        with line.client.stream("GET", item.url, headers=headers) as response:
             _require(response, item, part)
             resumed = response.status_code == _PARTIAL
             _note_version(part, response)
             with part.open("ab" if resumed else "wb") as file:
-                _copy(response, file, item, progress, timeout)
+                _copy(response, file, item, line)
     except httpx.TooManyRedirects as error:
         raise FetchError(
             f"{item.file}: {_host(item.url)} redirects in a circle. Try again later."
@@ -122,14 +118,12 @@ def _get(
             f"{_host(item.url)} cannot be reached ({error}). Is this machine online? Behind a proxy, HTTPS_PROXY names it"
         ) from error
     except httpx.TimeoutException as error:
-        raise _Cut(f"{_host(item.url)} did not answer for {timeout:g} s") from error
+        raise _Cut(f"{_host(item.url)} did not answer for {line.timeout:g} s") from error
     except httpx.TransportError as error:
         raise _Cut(f"the connection to {_host(item.url)} was cut ({error})") from error
 
 
-def _copy(
-    response: httpx.Response, file: BinaryIO, item: Download, progress: Progress, timeout: float
-) -> None:
+def _copy(response: httpx.Response, file: BinaryIO, item: Download, line: Line) -> None:
     """Append the body; never more than the file may have."""
     n_done = file.tell()
     announced = response.headers.get("Content-Length", "")
@@ -145,9 +139,9 @@ def _copy(
                 f"{item.file} from {_host(item.url)} is longer than the {limit:,} bytes it may have. Nothing was kept."
             )
         file.write(chunk)
-        progress(item.file, n_done, expected)
+        line.progress(item.file, n_done, expected)
         elapsed = time.monotonic() - started
-        if elapsed > timeout:
+        if elapsed > line.timeout:
             if n_since < _LEAST_RATE * elapsed:
                 raise _Cut(f"{_host(item.url)} sends only {n_since / elapsed:.0f} bytes a second")
             started, n_since = time.monotonic(), 0

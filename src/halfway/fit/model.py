@@ -13,7 +13,7 @@ from jaxtyping import Float64
 
 from .._types import Angle, Directions, Part, Table, Values
 from ..brdf import Brdf, IsotropicModel
-from ..halfdiff import Grid
+from ..halfdiff import Grid, above_horizon
 from .microfacet import Pair
 
 Vector = Float64[np.ndarray, " n"]
@@ -88,11 +88,7 @@ class AnalyticModel(IsotropicModel):
     def eval(self, wi: Directions, wo: Directions) -> Values:
         if self.is_isotropic:
             return super().eval(wi, wo)
-        wi, wo = np.broadcast_arrays(wi, wo)
-        lit = (wi[..., 2] > 0) & (wo[..., 2] > 0)
-        values = np.zeros((*lit.shape, 3))
-        values[lit] = self.of(Pair.of(wi[lit], wo[lit])).T
-        return values
+        return above_horizon(lambda i, o: self.of(Pair.of(i, o)), wi, wo)
 
     def _sample_rows(self, grid: Grid, rows: Part) -> Table:
         kind = IsotropicModel if self.is_isotropic else Brdf

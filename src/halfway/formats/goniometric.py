@@ -34,11 +34,10 @@ import numpy as np
 from .._types import Angle, Directions, Indices, Table, Values
 from ..brdf import Measurement
 from ..errors import FormatError
-from ..halfdiff import Corners
+from ..halfdiff import Corners, above_horizon
 from .content import CSAIL_HEADER, UTIA_BYTES
 from .sources import Source
 
-_CHUNK = 1 << 14  # pairs looked up at once: what they need stays in a cache
 _UTIA_SHAPE = (6, 48, 6, 48)
 
 
@@ -95,16 +94,7 @@ class GoniometricBrdf(Measurement):
         return f"a {self.kind} table of {sizes} directions, its values taken for 1/sr"
 
     def eval(self, wi: Directions, wo: Directions) -> Values:
-        wi, wo = np.broadcast_arrays(wi, wo)
-        lit = (wi[..., 2] > 0) & (wo[..., 2] > 0)
-        above_i, above_o = wi[lit], wo[lit]
-        values = np.empty((len(above_i), 3))
-        for start in range(0, len(values), _CHUNK):
-            chunk = slice(start, start + _CHUNK)
-            values[chunk] = self._corners(above_i[chunk], above_o[chunk]).blend(self.values).T
-        result = np.zeros((*lit.shape, 3))
-        result[lit] = values
-        return result
+        return above_horizon(lambda i, o: self._corners(i, o).blend(self.values), wi, wo)
 
     def fingerprint(self) -> bytes:
         digest = hashlib.sha256(repr((self.kind, self.nodes)).encode())

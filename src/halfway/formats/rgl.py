@@ -26,9 +26,8 @@ import numpy as np
 
 from .._types import Directions, Values
 from ..brdf import Measurement
+from ..halfdiff import above_horizon
 from .rgl_warp import Interpolant, Warp, slices
-
-_BLOCK = 1 << 14  # pairs evaluated at once: the temporaries stay in the cache
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,11 +65,7 @@ class RglBrdf(Measurement):
 
     def eval(self, wi: Directions, wo: Directions) -> Values:
         """f_r in 1/sr, shape (..., 3): 0 below the horizon; negative where the measured colour is out of gamut."""
-        wi, wo = np.broadcast_arrays(wi, wo)
-        lit = (wi[..., 2] > 0) & (wo[..., 2] > 0)
-        result = np.zeros((*lit.shape, 3))
-        result[lit] = self._in_blocks(wo[lit], wi[lit])
-        return result
+        return above_horizon(lambda wi, wo: self._at(wo, wi).T, wi, wo)
 
     def fingerprint(self) -> bytes:
         arrays = (
@@ -86,14 +81,6 @@ class RglBrdf(Measurement):
             digest.update(repr(array.shape).encode())
             digest.update(np.ascontiguousarray(array).data)
         return digest.digest()
-
-    def _in_blocks(self, i: Directions, o: Directions) -> np.ndarray:
-        """f_r of pairs above the horizon, shape (n, 3)."""
-        starts = range(0, len(i), _BLOCK)
-        blocks = [
-            self._at(i[start : start + _BLOCK], o[start : start + _BLOCK]) for start in starts
-        ]
-        return np.concatenate(blocks) if blocks else np.zeros((0, 3))
 
     def _at(self, i: Directions, o: Directions) -> np.ndarray:
         i, o = self._folded(i, o)

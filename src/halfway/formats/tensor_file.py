@@ -48,20 +48,14 @@ class _Field(NamedTuple):
         return math.prod(self.shape) * self.dtype.itemsize
 
 
-def read_tensor_file(path: Path) -> dict[str, np.ndarray]:
-    """The fields of a tensor file by name, as read-only arrays.
+def read_tensors(file: BufferedIOBase, label: str) -> dict[str, np.ndarray]:
+    """The fields of a tensor file by name, as read-only arrays; ``label`` is what messages call it.
 
     Raises
     ------
     FormatError
         When the file is no tensor file, is truncated, or states fields that it cannot hold.
     """
-    with path.open("rb") as file:
-        return read_tensors(file, path.name)
-
-
-def read_tensors(file: BufferedIOBase, label: str) -> dict[str, np.ndarray]:
-    """As `read_tensor_file`, from a stream; ``label`` is what messages call it."""
     start = file.read(len(MAGIC))
     # Of a file that is something else, only these few bytes are read.
     content = start + file.read() if start == MAGIC else start

@@ -1,6 +1,6 @@
 """Half/difference angles and the grids that sample them."""
 
-from .angles import HalfDiff, cosines, from_half_diff, reflect, to_half_diff, turn
+from .angles import HalfDiff, above_horizon, cosines, from_half_diff, reflect, to_half_diff, turn
 from .grid import MERL, Axis, Corners, Grid, common_grid
 
 __all__ = [
@@ -9,6 +9,7 @@ __all__ = [
     "Corners",
     "Grid",
     "HalfDiff",
+    "above_horizon",
     "common_grid",
     "cosines",
     "from_half_diff",

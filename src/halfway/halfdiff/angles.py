@@ -12,12 +12,16 @@ Reference: S. Rusinkiewicz, "A New Change of Variables for Efficient BRDF
 Representation", Eurographics Workshop on Rendering 1998, section 3.
 """
 
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
 from jaxtyping import Float
 
-from .._types import Angle, Directions
+from .._types import Angle, Directions, Values
+
+AT_ONCE = 1 << 14
+"""Pairs evaluated at once: what they need stays in a core's cache."""
 
 
 class HalfDiff(NamedTuple):
@@ -64,6 +68,25 @@ def turn(v: Directions, angle: Angle | float) -> Directions:
     x, y, z = np.moveaxis(v, -1, 0)
     c, s = np.cos(angle), np.sin(angle)
     return np.stack(np.broadcast_arrays(c * x - s * y, s * x + c * y, z), axis=-1)
+
+
+def above_horizon(
+    f: Callable[[Directions, Directions], np.ndarray], wi: Directions, wo: Directions
+) -> Values:
+    """``f`` of the pairs that are above the horizon, shape (..., 3), and 0 of the others.
+
+    It is called for `AT_ONCE` pairs or fewer, and gives values of shape (3, n_pairs).
+    """
+    wi, wo = np.broadcast_arrays(wi, wo)
+    lit = (wi[..., 2] > 0) & (wo[..., 2] > 0)
+    wi, wo = wi[lit], wo[lit]
+    above = np.empty((len(wi), 3))
+    for start in range(0, len(wi), AT_ONCE):
+        chunk = slice(start, start + AT_ONCE)
+        above[chunk] = f(wi[chunk], wo[chunk]).T
+    values = np.zeros((*lit.shape, 3))
+    values[lit] = above
+    return values
 
 
 def _to_polar(v: Directions) -> tuple[Angle, Angle]:

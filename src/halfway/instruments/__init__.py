@@ -2,7 +2,15 @@
 
 from .attribute import Attribute, Condition
 from .readings import Readings, read_table
-from .registry import ATTRIBUTES, attribute, attributes, of_readings, of_table, table_of
+from .registry import (
+    ATTRIBUTES,
+    attribute,
+    attributes,
+    described,
+    of_readings,
+    of_table,
+    table_of,
+)
 
 __all__ = [
     "ATTRIBUTES",
@@ -11,6 +19,7 @@ __all__ = [
     "Readings",
     "attribute",
     "attributes",
+    "described",
     "of_readings",
     "of_table",
     "read_table",

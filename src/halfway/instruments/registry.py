@@ -1,7 +1,7 @@
 """The attributes that there are, by the names that people write."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from difflib import get_close_matches
 from typing import Any
 
@@ -118,6 +118,11 @@ _ALL = (
 )
 ATTRIBUTES: Mapping[str, Attribute] = {attribute.name: attribute for attribute in _ALL}
 """By name, in the order in which they are shown."""
+MAIN = (
+    *("gloss20", "gloss60", "gloss85", "haze", "highlight_width"),
+    *("albedo", "L", "a", "b", "body"),
+)
+"""Those that say in a few lines what a material is like."""
 
 
 def attribute(name: str) -> Attribute:
@@ -174,6 +179,12 @@ def of_readings(readings: Reading) -> dict[str, Any]:
     return {name: float(v) if np.ndim(v) == 0 else v for name, v in values.items()}
 
 
+def described(values: Mapping[str, Any], names: Iterable[str] = MAIN) -> list[str]:
+    """Some attributes of one material for people, a line each."""
+    rows = ((ATTRIBUTES[name], values[name]) for name in names)
+    return [f"{a.name:16}{a.written(value):>10} {a.unit:8}{a.label}" for a, value in rows]
+
+
 def table_of(what: Brdf | Recipe | str, *, library: str = "") -> TabularBrdf:
     """The table that `attributes` reads."""
     match what:
@@ -182,7 +193,7 @@ def table_of(what: Brdf | Recipe | str, *, library: str = "") -> TabularBrdf:
         case Brdf():
             return tabulate(what, what.own_grid)
         case Recipe():
-            return mix(open_library(library or what.library.address or what.library.name), what)
+            return mix(open_library(library or what.library), what)
         case str():
             materials = open_materials([what], library=library)
             if len(materials) != 1:

@@ -16,14 +16,16 @@ from ..locations import BUILTIN_PREFIX, PERMUTED_PREFIX, Location, RemotePath, t
 from ..models import BUILTIN, builtin
 from . import compact_file
 from .compact import CompactLibrary
-from .library import Library
+from .library import Library, LibraryRef
 from .permuted import Permuted
 from .procedural import ProceduralLibrary
 from .stored import StoredLibrary
 
 
-def open_library(where: str | Location, *, grid: Grid | None = None) -> Library:
-    """The library called ``where``: ``builtin:NAME``, a library folder (or its URL), or an archive of neural fits.
+def open_library(
+    where: str | Location | LibraryRef | Library, *, grid: Grid | None = None
+) -> Library:
+    """The library called ``where``: ``builtin:NAME``, a library folder (or its URL), or an archive of neural fits; or an open one itself.
 
     ``grid`` is that on which formulas are sampled, by default the usual one of the set; a stored library has its own.
 
@@ -32,6 +34,10 @@ def open_library(where: str | Location, *, grid: Grid | None = None) -> Library:
     LibraryError
         When there is no such library.
     """
+    if isinstance(where, Library):
+        return where
+    if isinstance(where, LibraryRef):
+        where = where.address or where.name
     if str(where).startswith(PERMUTED_PREFIX):
         return Permuted(open_library(str(where).removeprefix(PERMUTED_PREFIX), grid=grid))
     if str(where).startswith(BUILTIN_PREFIX):

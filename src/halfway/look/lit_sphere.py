@@ -16,17 +16,20 @@ of the point. They are integrated over half vectors as in `halfway.brdf.directio
 An anisotropic material has a tangent field (see `sphere_rule`), and its moments are tabulated in the azimuth phi_o of the viewer
 from it as well.
 Pixels are averages over a square of points, those on the sphere; a highlight narrower than a pixel keeps its energy.
+
+In place of lights and sky there may be a picture of what surrounds the sphere (see `environment`).
 """
 
 import hashlib
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 import numpy as np
-from jaxtyping import Bool, Float32, Float64, Int
+from jaxtyping import Bool, Float, Float32, Float64, Int
 
 from .._types import Directions, Mask
 from ..halfdiff import Grid, turn
+from .environment import N_DIRECTIONS, Environment, environment_queries
 from .sphere_rule import (
     AXIS,
     N_SKY_AZIMUTHS,
@@ -77,6 +80,25 @@ class SphereScene:
     """Pixels along each side; the sphere touches all four."""
     n_points: int = 4
     """Points along each side of a pixel."""
+    environment: Environment | None = field(default=None, repr=False)
+    """In place of the lights; its digest is in the name."""
+
+    @classmethod
+    def under(
+        cls, lights: Float[np.ndarray, "n 3"] | Float[np.ndarray, "height width 3"]
+    ) -> "SphereScene":
+        """In other light: parallel, from some directions, as strong from each; or from what surrounds the sphere.
+
+        Directions are in the camera's frame: x is right, y up, z to the viewer. What surrounds the sphere is radiance by latitude and
+        longitude: the top row looks up, the middle column away from the viewer; as bright as makes a white matte sphere .5 in the mean.
+        """
+        dark = Sky((0.0, 1.0, 0.0), zenith=0.0, nadir=0.0)
+        if lights.ndim == 3:
+            environment = Environment.of(lights)
+            name = f"environment {environment.digest} {N_DIRECTIONS}"
+            return cls(name, (), dark, size=48, n_points=2, environment=environment)
+        each = [Light((x, y, z), np.pi / len(lights)) for x, y, z in lights.tolist()]
+        return cls("lights", tuple(each), dark)
 
     def mask(self) -> Mask:
         """True at the pixels of the sphere, shape (size, size), the first row on top."""
@@ -125,8 +147,8 @@ class SphereOperator(NamedTuple):
     """(n_touched,), the cells of the grid that any query touches."""
     lookup: Sparse
     """(n_queries, n_touched), trilinear weights; each row sums to 1."""
-    lights: Sparse
-    """(n_pixels, n_queries), irradiance x cosine / points of the pixel."""
+    lights: tuple[Sparse, ...]
+    """(n_pixels, n_queries), irradiance x cosine / points of the pixel; of all channels, or of each."""
     moments: Sparse
     """(n_nodes x 4, n_queries), solid angle x cosine x (1, w) in the viewer's frame at the point."""
     sky: Sparse
@@ -136,8 +158,7 @@ class SphereOperator(NamedTuple):
     def of(cls, scene: SphereScene, grid: Grid) -> "SphereOperator":
         """The operator of ``scene`` for tables on ``grid``."""
         frame, pixel = points(scene.size, scene.n_points)
-        irradiance = np.array([light.irradiance for light in scene.lights])
-        light = light_queries([light.direction for light in scene.lights], irradiance, frame)
+        light = _direct(scene, frame)
         nodes = SkyNodes.of(grid)
         moment = sky_queries(nodes)
         wi, wo, phi_o = (np.concatenate(pair) for pair in zip(light[:3], moment[:3], strict=True))
@@ -160,15 +181,15 @@ class SphereOperator(NamedTuple):
         total = self.lookup @ np.where(measured, samples, np.float32(0))
         weight = self.lookup @ measured.astype(np.float32)
         values = np.divide(total, weight, out=np.zeros_like(total), where=weight > 0)
-        return self.lights @ values + self.sky @ (self.moments @ values)
+        return _by_channel(self.lights, values) + self.sky @ (self.moments @ values)
 
 
 class FilledSphere(NamedTuple):
     """What `SphereOperator` does, for tables that all have values in the same cells: lookups and sums are one matrix."""
 
     cells: Indices
-    direct: Sparse
-    """(n_pixels, n_touched)."""
+    direct: tuple[Sparse, ...]
+    """(n_pixels, n_touched); of all channels, or of each."""
     moments: Sparse
     """(n_nodes x 4, n_touched)."""
     sky: Sparse
@@ -182,13 +203,22 @@ class FilledSphere(NamedTuple):
         cells, lookup, lights, moments, sky = SphereOperator.of(scene, grid)
         if measured is not None:
             lookup = _of_measured(lookup, measured.ravel()[cells])
-        return cls(cells, lights[::step] @ lookup, moments @ lookup, sky[::step])
+        direct = tuple(each[::step] @ lookup for each in lights)
+        return cls(cells, direct, moments @ lookup, sky[::step])
 
     def pictures(self, tables: Float32[np.ndarray, "3 k p"]) -> Float32[np.ndarray, "k n_pixels 3"]:
         """Linear RGB of the sphere's pixels for each table."""
         samples = tables[..., self.cells].reshape(-1, len(self.cells)).T
-        seen = self.direct @ samples + self.sky @ (self.moments @ samples)
+        seen = _by_channel(self.direct, samples) + self.sky @ (self.moments @ samples)
         return np.ascontiguousarray(seen.T.reshape(3, -1, len(seen)).transpose(1, 2, 0))
+
+
+def _by_channel(
+    sums: tuple[Sparse, ...], columns: Float32[np.ndarray, "n_queries k"]
+) -> Float32[np.ndarray, "n_pixels k"]:
+    """Sums over the columns of all channels, or over those of each."""
+    parts = np.split(columns, len(sums), axis=1)
+    return np.concatenate([m @ part for m, part in zip(sums, parts, strict=True)], axis=1)
 
 
 def _of_measured(lookup: Sparse, measured: Bool[np.ndarray, " n_touched"]) -> Sparse:
@@ -216,11 +246,20 @@ def _lookup(grid: Grid, wi: Directions, wo: Directions) -> tuple[Indices, Sparse
     return cells, csr_array(entries, shape=(n_queries, len(cells)))
 
 
-def _light_sums(light: Queries, rows: Indices, n_queries: int) -> Sparse:
+def _direct(scene: SphereScene, frame: Frame) -> Queries:
+    if scene.environment is not None:
+        return environment_queries(scene.environment, frame)
+    irradiance = np.array([light.irradiance for light in scene.lights])
+    return light_queries([light.direction for light in scene.lights], irradiance, frame)
+
+
+def _light_sums(light: Queries, rows: Indices, n_queries: int) -> tuple[Sparse, ...]:
     share = 1 / np.bincount(rows)
     pixel = rows[light.owner]
     column = np.arange(len(pixel))
-    return _sparse(light.weight * share[pixel], pixel, column, (len(share), n_queries))
+    shape = (len(share), n_queries)
+    channels = np.atleast_2d(light.weight.T)
+    return tuple(_sparse(weight * share[pixel], pixel, column, shape) for weight in channels)
 
 
 def _moment_sums(moment: Queries, n_nodes: int, n_queries: int) -> Sparse:

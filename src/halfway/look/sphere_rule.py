@@ -61,8 +61,8 @@ class Queries(NamedTuple):
     phi_o: Angles
     owner: Indices
     """The point of the sphere, or the node of the sky, that each query belongs to."""
-    weight: Float[np.ndarray, " n"]
-    """Irradiance x cosine, or solid angle x cosine."""
+    weight: Float[np.ndarray, " n"] | Float[np.ndarray, "n 3"]
+    """Irradiance x cosine, or solid angle x cosine; of all channels, or of each."""
 
 
 def points(size: int, n_points: int) -> tuple[Frame, Indices]:

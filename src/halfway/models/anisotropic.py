@@ -35,7 +35,7 @@ from jaxtyping import Float32
 
 from .._types import Angle, Directions, Part, Table, Values
 from ..brdf import Brdf
-from ..halfdiff import Grid, HalfDiff, from_half_diff, to_half_diff, turn
+from ..halfdiff import Grid, HalfDiff, above_horizon, from_half_diff, to_half_diff, turn
 
 Colour = tuple[float, float, float]
 """Linear RGB, or a refractive index at the wavelengths of red, green and blue."""
@@ -64,11 +64,7 @@ class AnisotropicModel(Brdf):
         """f_r in 1/sr, shape (3, ...); both directions are above the horizon, or the value is not kept."""
 
     def eval(self, wi: Directions, wo: Directions) -> Values:
-        wi, wo = np.broadcast_arrays(wi, wo)
-        lit = (wi[..., 2] > 0) & (wo[..., 2] > 0)
-        values = np.zeros((*lit.shape, 3))
-        values[lit] = self.at(to_half_diff(wi[lit], wo[lit]), wi[lit], wo[lit]).T
-        return values
+        return above_horizon(lambda i, o: self.at(to_half_diff(i, o), i, o), wi, wo)
 
     def _sample_rows(self, grid: Grid, rows: Part) -> Table:
         return self._sample_many([self], grid, rows)[:, 0]

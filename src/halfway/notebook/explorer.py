@@ -88,7 +88,7 @@ class Explorer(AnyWidget):
         blend: str | None = None,
         work: Work = WITH_CACHE,
     ) -> None:
-        self.library = library if isinstance(library, Library) else open_library(library)
+        self.library = open_library(library)
         self._answers = Answers(self.library, work=work)
         self._route: Route | None = None
         stops = list(stops) or self._favourites()

@@ -95,7 +95,7 @@ def distances(library: Library | str, *, work: Work = HERE) -> Float64[np.ndarra
 
     The unit is that of the fit: answers turn where one distance is twice another.
     """
-    opened = open_library(library) if isinstance(library, str) else library
+    opened = open_library(library)
     points = _weighted(features(opened, work=work))
     return apart(points[:, None], points)
 

@@ -157,7 +157,7 @@ def mix(
     RecipeError
         When the weights are no recipe, or of a material that the library does not have; or there is no such blend.
     """
-    opened = open_library(library) if isinstance(library, str) else library
+    opened = open_library(library)
     return Mixer(opened).mix(_to_recipe(opened, recipe, Blend(blend)))
 
 

@@ -87,7 +87,7 @@ def plan(
     LibraryError
         When no directions are within reach, or fewer than ``n``.
     """
-    opened = open_library(library) if isinstance(library, str) else library
+    opened = open_library(library)
     cells = _Pairs.of(opened, *spread_pairs(N_PAIRS, isotropic=opened.grid.is_isotropic), work)
     free = cells
     if in_plane:

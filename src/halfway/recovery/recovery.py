@@ -162,7 +162,7 @@ def recover(
     LibraryError
         When the library is measured at none of the directions.
     """
-    opened = open_library(library) if isinstance(library, str) else library
+    opened = open_library(library)
     setup = Setup.of(
         opened,
         measurements.wi,

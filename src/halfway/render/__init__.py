@@ -6,7 +6,7 @@ from .denoise import denoiser_available
 from .doctor import Finding, doctor
 from .fits import fit_sheet
 from .frames import Frame, write_frames
-from .renderer import QUALITY, Renderer
+from .renderer import QUALITY, Renderer, open_environment
 from .scenes import SCENES, Scene
 from .sheets import in_rows, write_pictures
 from .studio import studio
@@ -25,6 +25,7 @@ __all__ = [
     "doctor",
     "fit_sheet",
     "in_rows",
+    "open_environment",
     "picture",
     "pictures",
     "register",

@@ -248,6 +248,24 @@ class Renderer:
         return materials
 
 
+def open_environment(env: Path | str) -> np.ndarray:
+    """An environment as `Renderer` takes it, a file or ``"studio"``: radiance, float32, shape (height, width, 3).
+
+    The top row looks up, the middle column to where the camera looks.
+
+    Raises
+    ------
+    RenderError
+        When there is no such file, it is damaged or no picture in colour, or a value is missing.
+    """
+    if str(env) == STUDIO:
+        return studio()
+    load_mitsuba()
+    from .environment import read_environment
+
+    return read_environment(Path(env))
+
+
 def _background(size: tuple[int, int]) -> np.ndarray:
     return np.full((size[1], size[0], 3), BACKGROUND, np.float32)
 

@@ -74,7 +74,7 @@ def sample(
     """
     if n < 1:
         raise SpaceError(f"a set of {n} materials is none: expected 1 or more.")
-    opened = open_library(library) if isinstance(library, str) else library
+    opened = open_library(library)
     parents = _parents(len(opened), splits, seed)
     fitted = make_space(space, opened, blend=blend, work=work) if isinstance(space, str) else space
     looks = looks_of(opened, work=work)

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from ..control import Control, Wishes
-from ..errors import SpaceError
+from ..errors import OutOfReachError, SpaceError
 from ..library import Library, LibraryRef
 from ..recipes import Blend
 from ..tasks import HERE, Work
@@ -47,9 +47,13 @@ def along(
         raise SpaceError(f"a route of {n} recipes goes nowhere: expected -n 2 or more.")
     control = Control.of(library, work=work)
     weights = np.zeros((3, n, len(control.library)))
-    for i, value in enumerate(np.linspace(start, stop, n)):
-        wishes = Wishes.of({**(set or {}), name: value})
+    values = np.linspace(start, stop, n)
+    # The ends first, for these are what a person asked for.
+    for i in (0, n - 1, *range(1, n - 1)):
+        wishes = Wishes.of({**(set or {}), name: values[i]})
         recipe = control.find(wishes, like=like, blend=Blend(blend))
+        if recipe.is_recoloured:  # on a way there are weights alone
+            raise OutOfReachError(control.out_of_reach(wishes))
         weights[:, i] = recipe.dense(control.library.names)
     t = np.linspace(0, 1, n)
     stops = (f"{name}={start:g}", f"{name}={stop:g}")

@@ -109,7 +109,7 @@ def route(
     LibraryError
         When the library has no material of a name.
     """
-    opened = open_library(library) if isinstance(library, str) else library
+    opened = open_library(library)
     if pace not in PACES:
         raise SpaceError(f"there is no pace {pace!r}: expected {', '.join(PACES)}.")
     # A mistake is told before a space is fitted.

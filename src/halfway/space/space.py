@@ -129,19 +129,6 @@ class Space(ABC):
         weights = np.stack([chart.without(i) for chart in self.charts])
         return np.broadcast_to(weights, (3, len(self.names)))
 
-    def neighbours(self, name: str, n: int = 8) -> list[tuple[str, float]]:
-        """The ``n`` materials nearest to one, with their distances in the scaled coordinates, nearest first."""
-        return [
-            near for near in self.nearest(self.points[self.index(name)], n + 1) if near[0] != name
-        ][:n]
-
-    def nearest(self, point: Float64[np.ndarray, " d"], n: int = 8) -> list[tuple[str, float]]:
-        """The ``n`` materials nearest to a point, with their distances in the scaled coordinates, nearest first."""
-        scale = np.concatenate([chart.coordinates.scale for chart in self.charts])
-        distances = np.linalg.norm((self.points - point) * scale, axis=1)
-        order = distances.argsort(kind="stable")[:n]
-        return [(self.names[i], float(distances[i])) for i in order]
-
     def index(self, name: str) -> int:
         """Position of the material called ``name``.
 

@@ -37,7 +37,6 @@ PUBLISHED_FITS = {"ABC fit": ("merl-abc", 9), "SGD fit": ("merl-sgd", 33)}
 MODEL_FITS = {"GGX fit (glTF)": "gltf", "OpenPBR fit": "openpbr"}
 NETWORK_FIT = "NBRDF fit"
 NO_FITS: Mapping[str, Reconstruction] = {}
-TASKS = ("reconstruct", "recover", "halfway", "triplets")
 SPLITS = ("liu2023", "kind", "leave-one-out")
 
 
