@@ -3,7 +3,7 @@
 The weights are one row for all channels, so that what is linear in the table is linear in them.
 """
 
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -105,13 +105,14 @@ class Control:
         """The attributes of a recipe of the library, by name; of a linear one without its table."""
         return of_readings(self.reading(recipe))
 
-    def given_up(self, recipe: Recipe, wishes: Wishes, like: Like) -> dict[str, tuple[Any, Any]]:
-        """What a recipe should have kept of what it is like, and did not: the values there and here, by the attribute."""
+    def given_up(
+        self, here: Mapping[str, Any], wishes: Wishes, like: Like
+    ) -> dict[str, tuple[Any, Any]]:
+        """What a recipe with the attributes ``here`` should have kept of what it is like, and did not: the values there and here."""
         own = self.reference(like, wishes).readings
         if own is None:
             return {}
-        there, here = of_readings(own), self.attributes(recipe)
-        expected = of_readings(in_colour(own, wishes))
+        there, expected = of_readings(own), of_readings(in_colour(own, wishes))
         kept = [a for a in ATTRIBUTES.values() if a.group in wishes.held()]
         return {
             a.name: (there[a.name], here[a.name])

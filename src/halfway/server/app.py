@@ -8,6 +8,7 @@
     GET  /api/attributes                         the attributes of all materials
     POST /api/find                               the recipe that is like another and has some attributes
     POST /api/perceived                          how people would perceive a recipe
+    POST /api/alike                              how different people would find each material from a recipe
     GET  /api/tables/{material}                  a table as half floats (`blocks`)
     POST /api/mix                                the table of a recipe, as half floats; ?small=true: a small one
     GET  /api/thumbnails                         small pictures of all materials, with shared exponents
@@ -18,7 +19,7 @@
     GET  /api/docs.json                          this, as OpenAPI
 
 Spaces and legs take ``?blend=``; without it they are in the space's usual blend. Every mistake is answered as ``{"error": "one line"}``. What takes longer than the explorer's patience is answered with 202 and how far
-it is (`NotYet`): ask again. Large answers are compressed where the browser takes it, and name their content (ETag).
+it is (`NotYet`): ask again. ``?pace=people`` asks a leg for that pace, too. Large answers are compressed where the browser takes it, and name their content (ETag).
 """
 
 from collections.abc import AsyncIterator, Callable, Iterable, Mapping
@@ -43,6 +44,7 @@ from .making import NotYetError
 from .page import Asset, Page
 from .schema import (
     Added,
+    AlikeView,
     AttributesView,
     FoundView,
     LegView,
@@ -126,8 +128,10 @@ def _add_queries(app: FastAPI, explorer: Explorer) -> None:
         return explorer.space_view(space, blend)
 
     @app.get("/api/legs/{space}/{start}/{stop}")
-    def leg(space: Name, start: Name, stop: Name, blend: str | None = None) -> LegView:
-        return explorer.leg(space, start, stop, blend)
+    def leg(
+        space: Name, start: Name, stop: Name, blend: str | None = None, pace: str = ""
+    ) -> LegView:
+        return explorer.leg(space, start, stop, blend, pace)
 
     @app.post("/api/position")
     def position(point: Point) -> PositionView:
@@ -144,6 +148,10 @@ def _add_queries(app: FastAPI, explorer: Explorer) -> None:
     @app.post("/api/perceived")
     def perceived(recipe: RecipeDocument) -> PerceptionView:
         return explorer.perceived(recipe)
+
+    @app.post("/api/alike")
+    def alike(recipe: RecipeDocument) -> AlikeView:
+        return explorer.alike(recipe)
 
     @app.post("/api/export/{format}", response_class=Response, responses=BYTES)
     def export(format: Name, recipe: RecipeDocument) -> StreamingResponse:
