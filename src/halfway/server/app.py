@@ -112,6 +112,7 @@ def app_of(
     app.add_middleware(Guard, hosts=tuple(hosts))
     _answer_mistakes(app)
     _add_queries(app, explorer)
+    _add_numbers(app, explorer)
     _add_blocks(app, explorer)
     if page is not None:
         _add_page(app, page)
@@ -137,22 +138,6 @@ def _add_queries(app: FastAPI, explorer: Explorer) -> None:
     def position(point: Point) -> PositionView:
         return explorer.position(point)
 
-    @app.get("/api/attributes")
-    def attributes() -> AttributesView:
-        return explorer.attributes()
-
-    @app.post("/api/find")
-    def find(wanted: Wanted) -> FoundView:
-        return explorer.find(wanted)
-
-    @app.post("/api/perceived")
-    def perceived(recipe: RecipeDocument) -> PerceptionView:
-        return explorer.perceived(recipe)
-
-    @app.post("/api/alike")
-    def alike(recipe: RecipeDocument) -> AlikeView:
-        return explorer.alike(recipe)
-
     @app.post("/api/export/{format}", response_class=Response, responses=BYTES)
     def export(format: Name, recipe: RecipeDocument) -> StreamingResponse:
         parts, summary = explorer.export(format, recipe)
@@ -169,6 +154,24 @@ def _add_queries(app: FastAPI, explorer: Explorer) -> None:
     async def add(file: Name, request: Request) -> Added:
         content = await request.body()
         return Added(name=await run_in_threadpool(explorer.add, file, content))
+
+
+def _add_numbers(app: FastAPI, explorer: Explorer) -> None:
+    @app.get("/api/attributes")
+    def attributes() -> AttributesView:
+        return explorer.attributes()
+
+    @app.post("/api/find")
+    def find(wanted: Wanted) -> FoundView:
+        return explorer.find(wanted)
+
+    @app.post("/api/perceived")
+    def perceived(recipe: RecipeDocument) -> PerceptionView:
+        return explorer.perceived(recipe)
+
+    @app.post("/api/alike")
+    def alike(recipe: RecipeDocument) -> AlikeView:
+        return explorer.alike(recipe)
 
 
 def _add_blocks(app: FastAPI, explorer: Explorer) -> None:
