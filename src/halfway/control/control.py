@@ -21,7 +21,7 @@ from ..instruments import (
 )
 from ..library import Library, LibraryRef, open_library
 from ..look import Looks
-from ..recipes import Blend, Mixer, Recipe
+from ..recipes import Blend, Mixer, Recipe, open_recipe, split_address
 from ..tasks import HERE, Work
 from .nearness import Nearness
 from .programme import Goals, Weights, solve
@@ -78,6 +78,7 @@ class Control:
 
         In another blend than the linear one a ``draft`` has what is wished for roughly, and is found sooner.
         """
+        like = self._as_recipe(like)
         search = Search(
             control=self,
             like=like,
@@ -199,6 +200,15 @@ class Control:
         if recipe.pictures_mix:
             return self.readings.mix(recipe.dense(self.library.names), recipe.blend)
         return read_table(self.mixer.mix(recipe))
+
+    def _as_recipe(self, like: Like) -> Like:
+        """The recipe that a JSON file holds, where it is of the library; else what was given."""
+        if not isinstance(like, str) or like in self.library.names or ".json" not in like:
+            return like
+        if len(split_address(like)) > 1:
+            return like
+        library, recipe = open_recipe([like], library=self.library.address)
+        return recipe if library.checksum == self.library.checksum else like
 
     def recipe(self, weights: Weights, blend: Blend) -> Recipe:
         """The recipe of weights over all materials, the same in every channel."""
