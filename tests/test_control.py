@@ -127,12 +127,12 @@ def test_what_is_not_asked_for_stays():
 def test_what_is_given_up_is_told():
     """Nothing of the material itself; of a far one at least what makes it another."""
     wishes = Wishes.of({"albedo": 0.3})
-    own = CONTROL.find(Wishes(), like="m1")
+    own = CONTROL.attributes(CONTROL.find(Wishes(), like="m1"))
     assert CONTROL.given_up(own, wishes, "m1") == {}
     shiny, matte = (
         np.argmax(x * ATTRIBUTES["gloss60"].of(CONTROL.readings.values)) for x in (1, -1)
     )
-    other = CONTROL.find(Wishes(), like=f"m{shiny}")
+    other = CONTROL.attributes(CONTROL.find(Wishes(), like=f"m{shiny}"))
     was, now = CONTROL.given_up(other, wishes, f"m{matte}")["gloss60"]
     assert was < now
 
@@ -288,6 +288,14 @@ def test_the_command_line_finds_and_tells(tmp_path, monkeypatch, capsys):
     )
     route = json.loads(capsys.readouterr().out)
     assert route["stops"] == ["gloss60=2", "gloss60=3"]
+    # A recipe's file is the recipe: in any blend, it is its own body that is scaled.
+    mixed = {"library": "three.brdflib", "blend": "root", "weights": {"dark": 0.5, "shiny": 0.5}}
+    (tmp_path / "mixed.json").write_text(json.dumps(mixed))
+    like = "find three.brdflib --like mixed.json --blend root --set body=#102030 --json"
+    run(monkeypatch, *like.split())
+    recoloured = json.loads(capsys.readouterr().out)
+    assert recoloured["weights"] == mixed["weights"]
+    assert len(recoloured["body_scale"]) == 3
     run(monkeypatch, "attributes", "three.brdflib")
     assert [line.split()[-1] for line in capsys.readouterr().out.splitlines()] == [
         "material",

@@ -17,7 +17,7 @@ from served import HOST, client_of, recipe_of
 from halfway.library import ProceduralLibrary
 from halfway.recipes import Blend
 from halfway.server import create_app
-from halfway.server.explorer import PACES
+from halfway.server.explorer import QUICK_PACES
 from halfway.space import SPACES, Route, make_space
 from halfway.tasks import Work
 
@@ -97,8 +97,13 @@ def test_a_leg_is_that_of_the_package(client: TestClient, small_library: Procedu
     assert_allclose(leg["knots"], route.way.knots, rtol=0, atol=0)
     for c, channel in enumerate("rgb"):
         assert_array_equal(leg["weights"][channel], route.way.weights[c][:, used])
-    assert set(leg["paces"]) == set(PACES)
-    for pace in leg["paces"].values():
+    assert set(leg["paces"]) == set(QUICK_PACES)
+    paces = client.get("/api/legs/paper/material-0/material-4?pace=people").json()["paces"]
+    # No way is shorter than how different its ends are.
+    ends = {"library": "small", "weights": {"material-0": 1}}
+    apart = client.post("/api/alike", json=ends).json()["distances"][4]
+    assert paces["people"]["length"][-1] >= apart > 0
+    for pace in paces.values():
         assert (pace["t"][0], pace["t"][-1], pace["length"][0]) == (0, 1, 0)
         assert (np.diff(pace["t"]) > 0).all()
         assert (np.diff(pace["length"]) > 0).all()

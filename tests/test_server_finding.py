@@ -7,9 +7,10 @@ from fastapi.testclient import TestClient
 from glossy import library
 from numpy.testing import assert_allclose
 
-from halfway import attributes, mix, reach
+from halfway import attributes, find, mix, reach
+from halfway.control.recolour import HELD
 from halfway.instruments import ATTRIBUTES
-from halfway.people import Perception
+from halfway.people import Impressions, Perception, apart, distances
 from halfway.recipes import Blend, Recipe
 from halfway.server import create_app
 
@@ -95,6 +96,33 @@ def test_out_of_reach_the_nearest_is_found(client: TestClient) -> None:
     assert_allclose(answer["attributes"]["gloss60"], most, rtol=1e-6)
     # No mix has that, so nothing can go anywhere beside it.
     assert list(answer["ranges"]) == ["gloss60"]
+
+
+def test_another_body_colour_keeps_the_highlight_or_says_what_it_cost(client: TestClient) -> None:
+    asked = "#a07ea3"
+    held = found(client, set={"body": asked})
+    recipe = Recipe.from_json(held["recipe"])
+    by_hand = find(LIBRARY, Recipe.of("glossy", HALF), set={"body": asked})
+    assert recipe.to_json() == by_hand.to_json()
+    assert recipe.is_recoloured
+    # The document of the page is the recipe: what it is drawn and taken home by has that body, too.
+    assert ATTRIBUTES["body"].written(attributes(mix(LIBRARY, recipe))["body"]) == held["body"]
+    assert held["body"] == asked
+    assert held["difference"] < 1e-3
+    free = found(client, set={"body": asked}, release=list(HELD))
+    assert free["recipe"]["body_scale"] is None
+    changed = {each["name"] for each in free["given_up"]}
+    assert "gloss60" in changed
+    assert changed.isdisjoint({each["name"] for each in held["given_up"]})
+
+
+def test_how_alike_people_find_materials_is_their_distance(client: TestClient) -> None:
+    own = client.post("/api/alike", json={"library": "glossy", "weights": {"m3": 1}}).json()
+    assert_allclose(own["distances"], distances(LIBRARY)[3], atol=1e-12)
+    recipe = Recipe.of("glossy", HALF, blend=Blend.LOBES)
+    mixed = client.post("/api/alike", json=recipe.to_json()).json()["distances"]
+    impressions = Impressions.fit(LIBRARY)
+    assert_allclose(mixed, apart(impressions.points, impressions.of(recipe)), rtol=1e-6)
 
 
 def test_what_cannot_be_asked_for_is_said(client: TestClient) -> None:

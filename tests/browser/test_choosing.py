@@ -9,6 +9,9 @@ from patience import wait_until
 from playwright.sync_api import TimeoutError as TooLate
 from playwright.sync_api import expect
 
+from halfway.library import ProceduralLibrary
+from halfway.people import distances
+
 SIZE = {"width": 1280, "height": 900}
 SMALL = {"width": 460, "height": 560}
 PAIR = "#space=linear&pace=uniform&stops=cherry-235,gold-paint&light=points&t="
@@ -18,7 +21,15 @@ def shown(explorer: Explorer) -> list[str]:
     return explorer.page.locator(".grid button:visible").all_text_contents()
 
 
-def test_the_materials_side_by_side_are_filtered_ordered_and_chosen(explorer: Explorer) -> None:
+def by_likeness(library: ProceduralLibrary, name: str) -> list[str]:
+    """The materials, those first that people would find most alike to one."""
+    order = distances(library)[library.index(name)].argsort()
+    return [library.names[i] for i in order]
+
+
+def test_the_materials_side_by_side_are_filtered_ordered_and_chosen(
+    explorer: Explorer, library: ProceduralLibrary
+) -> None:
     page = explorer.page
     page.set_viewport_size(SIZE)
     explorer.open(PAIR + "0&map=Grid")
@@ -33,8 +44,15 @@ def test_the_materials_side_by_side_are_filtered_ordered_and_chosen(explorer: Ex
     page.locator("[name=gloss]").select_option("")
     page.locator("[name=order]").select_option("gloss")
     assert shown(explorer)[-1] == "chrome"
+    # By what people say, of what is shown.
     page.locator("[name=order]").select_option("likeness")
-    assert shown(explorer)[0] == "cherry-235"
+    wait_until(lambda: shown(explorer) == by_likeness(library, "cherry-235"), explorer.pause)
+    page.locator("[name=search]").fill("like chrome")
+    results = page.locator(".results li")
+    expect(results).to_have_text(by_likeness(library, "chrome")[1:])
+    page.locator("[name=search]").fill("plastic like chrome")
+    expect(results).to_have_text(["green-plastic", "yellow-matte-plastic", "teflon"])
+    page.locator("[name=search]").fill("")
     page.locator(".grid").get_by_role("button", name="teflon").click()
     wait_until(lambda: explorer.stops == ["cherry-235", "teflon"], explorer.pause)
 

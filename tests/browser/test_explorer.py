@@ -6,7 +6,9 @@ from pathlib import Path
 import pytest
 from conftest import Explorer  # pyright: ignore[reportMissingImports]
 from PIL import Image
+from playwright.sync_api import expect
 
+from halfway import route
 from halfway.formats import write_merl
 from halfway.library import ProceduralLibrary
 from halfway.recipes import Recipe, mix
@@ -124,6 +126,17 @@ def test_the_downloaded_merl_file_is_the_written_one(
     assert merl_file.value.suggested_filename == "cherry-235-to-gold-paint-0.370.binary"
 
 
+def test_steps_that_people_call_equal_are_a_pace(
+    explorer: Explorer, library: ProceduralLibrary
+) -> None:
+    explorer.open("#space=linear&stops=chrome,teflon&t=0.5&light=points")
+    explorer.page.wait_for_selector(".recipe .name")
+    explorer.page.locator("[name=pace]").select_option("people")
+    weights = route(library, "chrome", "teflon", space="linear", pace="people").recipe(0.5).weights
+    shares = [f"{100 * weight:.0f} %" for weight in sorted(weights[0], reverse=True)]
+    expect(explorer.page.locator(".recipe .share")).to_have_text(shares)
+
+
 def test_two_spaces_are_compared_in_one_picture(explorer: Explorer) -> None:
     explorer.page.set_viewport_size({"width": 460, "height": 560})
     explorer.open("#space=linear&stops=teflon,chrome&t=0.4&light=points")
@@ -138,23 +151,6 @@ def test_two_spaces_are_compared_in_one_picture(explorer: Explorer) -> None:
     explorer.page.wait_for_function(
         "p => document.querySelector('.live').toDataURL() === p", arg=alone
     )
-
-
-def test_another_body_colour_leaves_the_route_and_comes_back(explorer: Explorer) -> None:
-    explorer.open("#space=anchored&stops=cherry-235,gold-paint&t=0.5&light=points")
-    explorer.wait_for_picture(1)
-    on_route = explorer.recipe
-    explorer.page.get_by_label("Body colour").fill("#80402f")
-    back = explorer.page.get_by_role("button", name="Back to route")
-    back.wait_for()
-    assert explorer.recipe != on_route
-    explorer.page.wait_for_function("() => location.hash.includes('point=')")
-    left = explorer.recipe
-    explorer.page.reload()
-    back.wait_for()
-    explorer.wait_for_recipe(left)
-    back.click()
-    explorer.wait_for_recipe(on_route)
 
 
 def test_the_present_material_is_dragged_through_the_space(explorer: Explorer) -> None:

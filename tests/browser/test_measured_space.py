@@ -17,6 +17,10 @@ def test_axes_and_colours_are_chosen_among_what_instruments_read(explorer: Explo
     expect(ticks.filter(has_text="Gloss, 60° (GU)")).to_have_count(1)
     page.locator("[name=axis-2]").select_option("haze")
     expect(ticks.filter(has_text="Haze (HU)")).to_have_count(1)
+    for width in (390, 800, 1280):
+        page.set_viewport_size({"width": width, "height": SIZE["height"]})
+        page.wait_for_timeout(300)
+        assert not overlapping(explorer)
     before = seen(explorer)
     page.locator("[name=tint]").select_option("gloss60")
     expect(page.get_by_role("img", name="Colours stand for Gloss, 60° (GU)")).to_be_visible()
@@ -58,6 +62,17 @@ def test_small_pictures_that_do_not_come_are_said_and_asked_for_again(explorer: 
     expect(said).to_be_visible()
     page.unroute_all()
     expect(said).to_be_hidden()
+
+
+def overlapping(explorer: Explorer) -> list[str]:
+    """Texts at the axes that cover another one, or a name."""
+    return explorer.page.evaluate("""() => {
+      const [ticks, names] = [".tick", ".labels .label"].map((each) => [...document.querySelectorAll(each)]);
+      const box = (element) => element.getBoundingClientRect();
+      const cover = (a, b) => a.left < b.right - 1 && b.left < a.right - 1 && a.top < b.bottom - 1 && b.top < a.bottom - 1;
+      return ticks.filter((tick, i) => [...ticks.slice(0, i), ...names].some((other) => cover(box(tick), box(other))))
+        .map((tick) => tick.textContent);
+    }""")
 
 
 def seen(explorer: Explorer) -> bytes:

@@ -8,6 +8,7 @@ from numpy.testing import assert_allclose
 from playwright.sync_api import expect
 
 from halfway import attributes, mix
+from halfway.colour import to_hex
 from halfway.library import ProceduralLibrary
 from halfway.recipes import Recipe
 
@@ -23,7 +24,7 @@ def ask(explorer: Explorer, name: str, value: str) -> None:
 
 def taken(explorer: Explorer) -> Recipe:
     """The recipe that is shown, as it is taken home."""
-    explorer.page.wait_for_selector(".numbers:not(.behind)")
+    explorer.page.wait_for_selector(".numbers:not(.behind)", state="attached")
     with explorer.page.expect_download() as file:
         explorer.page.get_by_role("button", name="Recipe", exact=True).click()
     return Recipe.from_json(json.loads(file.value.path().read_text()))
@@ -73,6 +74,48 @@ def test_what_no_mix_has_is_said_and_the_nearest_is_shown(explorer: Explorer) ->
     expect(page.locator("[data-asked=true]")).to_have_count(0)
     expect(page.locator(".missing")).to_be_empty()
     assert taken(explorer).names == ("cherry-235", "gold-paint")
+
+
+def test_another_body_colour_is_asked_for_and_got_side_by_side(
+    explorer: Explorer, library: ProceduralLibrary
+) -> None:
+    """By a scaled body, where no mix has it and the highlight; in the picture, the recipe, the link and the shortlist."""
+    page = explorer.page
+    page.context.grant_permissions(["clipboard-read", "clipboard-write"])
+    explorer.open("#space=linear&pace=uniform&stops=pink-felt,blue-fabric&t=0&light=points")
+    explorer.wait_for_picture(1)
+    before = explorer.drawn()
+    page.get_by_label("Body colour", exact=True).fill("#203050")
+    expect(page.locator(".answer .note")).to_contain_text(
+        "the body alone is scaled. Given up: Gloss"
+    )
+    expect(page.locator(".answer .swatch")).to_have_text(["asked #203050", "got #203050"])
+    expect(page.locator(".answer")).to_contain_text("ΔE 0.0")
+    expect(page.locator(".scaled")).to_have_text(
+        re.compile("^Its body alone: red . 0.020, green . 0.10, blue . 0.38$")
+    )
+    found = taken(explorer)
+    assert found.is_recoloured
+    assert to_hex(attributes(mix(library, found))["body"]) == "#203050"
+    assert explorer.drawn_after(before)[..., 0].mean() < before[..., 0].mean()
+    page.get_by_label("Copy the command").click()
+    page.get_by_text("Copied").wait_for()
+    command = page.evaluate("navigator.clipboard.readText()")
+    assert "find browser --like pink-felt --set 'body=#203050'" in command
+    page.get_by_role("button", name="Pin", exact=True).click()
+    # The link has it, and so has what was kept.
+    page.wait_for_function("() => location.hash.includes('asked=')")
+    page.reload()
+    page.wait_for_selector(".scaled:visible")
+    assert taken(explorer).to_json() == found.to_json()
+    page.get_by_role("button", name="Back to route").click()
+    expect(page.locator(".scaled")).to_be_hidden()
+    page.locator(".kept li button").first.click()
+    expect(page.locator(".scaled")).to_be_visible()
+    # Undo leads back to what was asked for before; what need not stay is let go of.
+    page.get_by_label("Undo").click()
+    page.get_by_label("keep the highlight").uncheck()
+    expect(page.locator(".answer .note")).not_to_contain_text("Given up")
 
 
 def test_how_people_would_perceive_it_is_a_switch_away(explorer: Explorer) -> None:

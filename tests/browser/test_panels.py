@@ -135,10 +135,12 @@ def test_a_point_outside_the_hull_is_marked_beside_a_mix_nearby(explorer: Explor
 
 
 def test_a_free_place_is_undone_and_redone(explorer: Explorer) -> None:
-    explorer.open("#space=anchored&stops=cherry-235,gold-paint&t=0.5&light=points")
+    explorer.open(
+        "#space=anchored&stops=cherry-235,gold-paint&t=0.5&light=points&map=Body%20colour"
+    )
     explorer.page.wait_for_selector(".recipe .name")
     on_route = explorer.recipe
-    explorer.page.get_by_label("Body colour").fill("#80402f")
+    explorer.page.get_by_label("to leave the route").press("ArrowRight")
     back = explorer.page.get_by_role("button", name="Back to route")
     back.wait_for()
     left = explorer.recipe

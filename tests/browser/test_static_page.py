@@ -11,9 +11,11 @@ from typing import Any
 import pytest
 from conftest import Explorer  # pyright: ignore[reportMissingImports]
 from patience import PATIENCE
+from playwright.sync_api import expect
 
 from halfway import route
 from halfway.library import ProceduralLibrary, Subset
+from halfway.people import distances
 from halfway.recipes import Recipe
 from halfway.server import Page
 from halfway.server.static import export
@@ -101,10 +103,18 @@ def test_beyond_all_materials_there_is_a_mix_nearby(explorer: Explorer) -> None:
     assert explorer.recipe
 
 
-def test_tables_are_not_offered(explorer: Explorer) -> None:
-    explorer.open(PAIR)
-    explorer.page.wait_for_selector(".recipe .name")
-    assert explorer.page.get_by_role("button", name="MERL file").count() == 0
+def test_what_takes_a_server_is_not_offered_or_said(explorer: Explorer, subset: Subset) -> None:
+    page = explorer.page
+    explorer.open(PAIR + "&asked=body:7a2a3a")
+    page.wait_for_selector(".recipe .name")
+    assert page.get_by_role("button", name="MERL file").count() == 0
+    expect(page.get_by_label("Body colour", exact=True)).to_be_hidden()
+    expect(page.locator(".recipe .problem")).to_contain_text("open the library with `halfway view`")
+    assert page.locator("[name=pace] option").all_text_contents() == ["perceptual", "uniform"]
+    # How alike people find its materials it knows.
+    page.locator("[name=search]").fill("like chrome")
+    order = distances(subset)[subset.index("chrome")].argsort()[1:]
+    expect(page.locator(".results li")).to_have_text([subset.names[i] for i in order])
 
 
 def test_a_folder_that_is_not_whole_says_so(explorer: Explorer, folder: Path) -> None:

@@ -134,7 +134,7 @@ def _library(n: int, seed: int) -> ProceduralLibrary:
 
 def _route() -> dict[str, Any]:
     """Legs as they are sent, one of them against the library's order, and the routes and recipes of the whole."""
-    from halfway.server.explorer import PACES, Explorer
+    from halfway.server.explorer import QUICK_PACES, Explorer
 
     explorer = Explorer(_library(20, seed=4))
     stops = ["material-0", "material-7", "material-2", "material-9"]
@@ -143,7 +143,7 @@ def _route() -> dict[str, Any]:
         for a, b in (sorted(pair) for pair in pairwise(stops))
     }
     routes: list[dict[str, Any]] = []
-    for pace in PACES:
+    for pace in QUICK_PACES:
         route = explorer.way("paper", stops, pace)
         ts = [0.0, 0.1, 0.25, float(route.stop_ts[1]), float(route.way.knots[9]), 0.7, 0.999, 1.0]
         recipes = zip(ts, route.recipes(ts), strict=True)
@@ -182,7 +182,7 @@ def _points() -> dict[str, Any]:
                     blend=BLEND,
                     point=(middle + reach * (weights @ space.points - middle)).tolist(),
                 )
-                answer = explorer.position(point).model_dump(mode="json")
+                answer = explorer.position(point).model_dump(mode="json", exclude_none=True)
                 points.append({**point.model_dump(mode="json"), "answer": answer})
     return {"names": list(explorer.library.names), "spaces": spaces, "points": points}
 

@@ -30,10 +30,15 @@ def types() -> str:
 def _interface(name: str, document: dict[str, Any]) -> str:
     text = _comment(document.get("description", ""), "")
     fields = "".join(
-        f"  readonly {key}: {_type(value)};\n"
+        f"  readonly {key}{_left_out(value)}: {_type(value)};\n"
         for key, value in document.get("properties", {}).items()
     )
     return f"\n{text}export interface {name} {{\n{fields}}}\n"
+
+
+def _left_out(node: dict[str, Any]) -> str:
+    """A mark where null is the same as nothing."""
+    return "?" if "default" in node and node["default"] is None else ""
 
 
 def _comment(text: str, indent: str) -> str:

@@ -13,7 +13,7 @@ import type { Store } from "./store";
 import { shortName } from "./title";
 
 const MAX_PAST = 100;
-/** Moves of a free point that follow each other so soon, in milliseconds, are one act. */
+/** Moves of a free point, or of what is asked for, that follow each other so soon, in milliseconds, are one act. */
 const ONE_ACT = 700;
 /** Causes of notices: what was chosen, and what a link says. */
 const CHOICE = "choice";
@@ -33,8 +33,8 @@ export class Actions {
   };
 
   setT = (t: number): void => {
-    const { route, otherRoute, point, stops, waiting } = this.store.get();
-    if (point !== null) this.remember();
+    const { route, otherRoute, stops, waiting } = this.store.get();
+    this.rememberAway();
     const clamped = clamp(t, 0, 1);
     this.store.set({
       t: clamped,
@@ -64,20 +64,29 @@ export class Actions {
 
   /** Leave the route for a point of the space. */
   goTo = (point: readonly number[]): void => {
-    const now = performance.now();
-    if (now - this.lastMove > ONE_ACT) this.remember();
-    this.lastMove = now;
+    this.rememberMove();
     this.store.set({ point, held: null, asked: null, playing: false });
   };
 
   /** Ask for a material like the one that is shown, with this value of an attribute; with null ask for one thing less. */
-  ask = (name: string, value: number | null): void => {
+  ask = (name: string, value: number | string | null): void => {
     const { asked, held, attributes, numbers, point, t } = this.store.get();
     const like = asked ? asked.like : (held?.recipe ?? null);
     const set = asking(asked?.set ?? {}, name, value, attributes ?? [], numbers?.attributes ?? {});
-    if (asked === null) this.remember();
-    if (like === null && point === null && Object.keys(set).length === 0) this.setT(t);
-    else this.store.set({ asked: { like, set }, playing: false });
+    if (like === null && point === null && Object.keys(set).length === 0) {
+      this.setT(t);
+      return;
+    }
+    this.rememberMove();
+    this.store.set({ asked: { like, set, loose: asked?.loose ?? false }, playing: false });
+  };
+
+  /** Whether the highlight may change with the body colour that is asked for. */
+  loosen = (loose: boolean): void => {
+    const { asked } = this.store.get();
+    if (asked === null) return;
+    this.rememberMove();
+    this.store.set({ asked: { ...asked, loose } });
   };
 
   /** What was found for what is asked for; or the numbers of what is shown, where nothing is. */
@@ -126,7 +135,7 @@ export class Actions {
 
   /** Show one of the shortlist; the route stays where it is. */
   hold = (held: Kept): void => {
-    if (this.store.get().point !== null) this.remember();
+    this.rememberAway();
     this.store.set({ held, recipe: recipeOf(held), point: null, atPoint: null, asked: null, playing: false });
   };
 
@@ -182,7 +191,7 @@ export class Actions {
   go = (change: Partial<Whereabouts>): void => {
     const { slot } = this.store.get();
     const blend = change.space !== undefined && { blend: usualBlend(this.store.get().library, change.space) };
-    const next = { ...this.whereabouts(), point: null, ...blend, ...change };
+    const next = { ...this.whereabouts(), point: null, asked: null, ...blend, ...change };
     for (const cause of [CHOICE, LINK]) this.say("route", cause, null);
     this.remember();
     this.follow(next, Math.min(slot, next.stops.length - 1));
@@ -225,7 +234,7 @@ export class Actions {
     this.lastMove = Number.NEGATIVE_INFINITY;
     // Back on the same route, its recipe holds; on another one it comes with the answer.
     const recipe = next.point === null && route ? { recipe: recipeAt(route, t) } : {};
-    this.store.set({ ...next, slot, inserting: false, atPoint: null, held: null, asked: null, ...recipe });
+    this.store.set({ ...next, slot, inserting: false, atPoint: null, held: null, ...recipe });
   }
 
   /** The present whereabouts are one undo away; nothing is ahead of them. */
@@ -233,9 +242,22 @@ export class Actions {
     this.store.set({ past: [...this.store.get().past.slice(1 - MAX_PAST), this.whereabouts()], future: [] });
   }
 
+  /** As `remember`, once for moves that follow each other. */
+  private rememberMove(): void {
+    const now = performance.now();
+    if (now - this.lastMove > ONE_ACT) this.remember();
+    this.lastMove = now;
+  }
+
+  /** Off the route there is somewhere to come back to. */
+  private rememberAway(): void {
+    const { point, asked } = this.store.get();
+    if (point !== null || asked !== null) this.remember();
+  }
+
   private whereabouts(): Whereabouts {
-    const { space, blend, pace, stops, point } = this.store.get();
-    return { space, blend, pace, stops, point };
+    const { space, blend, pace, stops, point, asked } = this.store.get();
+    return { space, blend, pace, stops, point, asked };
   }
 }
 

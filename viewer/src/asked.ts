@@ -1,15 +1,24 @@
-// What a person asks for in numbers: a material like the one that is shown, whose attributes have these values.
+// What a person asks for: a material like the one that is shown, whose attributes have these values.
 
-import type { AttributeView, RecipeDocument } from "./api/schema";
+import type { AttributeView, FoundView, RecipeDocument } from "./api/schema";
 import type { Kept } from "./shortlist";
 
-export type Numbers = Readonly<Record<string, number>>;
+/** Numbers by the name of the attribute, and the body's colour as #rrggbb. */
+export type Wishes = Readonly<Record<string, number | string>>;
 
 export interface Asked {
   /** What it is like; null: the material at t, or at the free point. */
   readonly like: RecipeDocument | null;
-  readonly set: Numbers;
+  readonly set: Wishes;
+  /** Whether the highlight need not stay beside another body colour. */
+  readonly loose: boolean;
 }
+
+/** The attribute that is a colour. */
+export const BODY = "body";
+
+/** What of the highlight is held beside another body colour, unless one of them is asked for. */
+export const HIGHLIGHT = ["gloss20", "gloss60", "gloss85", "haze", "highlight_width"];
 
 /** What they are called where there is little room. */
 export const LABELS: Readonly<Record<string, string>> = {
@@ -19,6 +28,8 @@ export const LABELS: Readonly<Record<string, string>> = {
   haze: "Haze",
   highlight_width: "Highlight",
   albedo: "Albedo",
+  doi: "Distinctness",
+  body: "Body colour",
   L: "Lightness L*",
   a: "a* green, red",
   b: "b* blue, yellow",
@@ -32,12 +43,12 @@ export const FOUND = "found";
  * as it is now, and go with it.
  */
 export function asking(
-  set: Numbers,
+  set: Wishes,
   name: string,
-  value: number | null,
+  value: number | string | null,
   attributes: readonly AttributeView[],
   has: Readonly<Record<string, number | null>>,
-): Numbers {
+): Wishes {
   const needs = (each: string) => attributes.find((other) => other.name === each)?.needs ?? "";
   const next = new Map(Object.entries(set));
   if (value === null) next.delete(name);
@@ -50,22 +61,34 @@ export function asking(
 
 /** Those that were not found, as no mix has them all. */
 export function missed(
-  set: Numbers,
+  set: Wishes,
   has: Readonly<Record<string, number | null>>,
   attributes: readonly AttributeView[],
 ): readonly string[] {
   return attributes
     .filter(({ name, close }) => {
       const [wanted, present] = [set[name], has[name]];
-      return wanted !== undefined && (typeof present !== "number" || Math.abs(present - wanted) > close);
+      return (
+        typeof wanted === "number" && (typeof present !== "number" || Math.abs(present - wanted) > close)
+      );
     })
     .map(({ name }) => name);
 }
 
 /** What was found, as one of the shortlist would be. */
-export function foundAs(name: string, set: Numbers, recipe: RecipeDocument): Kept {
-  const numbers = Object.entries(set).map(([each, value]) => `${each} ${inDigits(value)}`);
+export function foundAs(name: string, set: Wishes, recipe: RecipeDocument): Kept {
+  const numbers = Object.entries(set).map(([each, value]) => `${each} ${written(value)}`);
   return { id: FOUND, name: [name, ...numbers].join(", "), note: "", recipe, link: "" };
+}
+
+/** What should have stayed as it was, from what to what; empty where all did. */
+export function givenUp({ given_up }: FoundView): string {
+  return given_up.map(({ name, was, now }) => `${LABELS[name] ?? name} ${was} to ${now}`).join(", ");
+}
+
+/** A value that is asked for, as it is written in names and commands. */
+export function written(value: number | string): string {
+  return typeof value === "number" ? inDigits(value) : value;
 }
 
 /** A number in as many digits as say something. */

@@ -1,6 +1,6 @@
 // What the page shows, as what the command line makes: `halfway route`, `mix` or `find`, and `halfway render`.
 
-import { type Asked, inDigits } from "./asked";
+import { type Asked, HIGHLIGHT, written } from "./asked";
 import { recipeAt } from "./route";
 import type { State } from "./state";
 import { materialName } from "./title";
@@ -57,9 +57,10 @@ function inSpace({ space, blend }: Pick<Shown, "space" | "blend">): string {
 }
 
 /** What makes the material that it is like comes before, where that is no file and none of the library. */
-function find(shown: Shown, { like, set }: Asked, file: string): string {
+function find(shown: Shown, { like, set, loose }: Asked, file: string): string {
   const { library, held, kept, point, t } = shown;
-  const wishes = Object.entries(set).map(([name, value]) => `--set ${name}=${inDigits(value)}`);
+  const wishes = Object.entries(set).map(([name, value]) => `--set ${quoted(`${name}=${written(value)}`)}`);
+  if (loose) wishes.push(...HIGHLIGHT.map((name) => `--release ${name}`));
   const command = (what: string) =>
     `halfway find ${quoted(library.address)} --like ${quoted(what)} ${wishes.join(" ")} --blend ${held?.recipe.blend} --clamp -o ${quoted(file)}`;
   if (like !== null) return command(`${kept.find(({ recipe }) => recipe === like)?.name ?? "recipe"}.json`);

@@ -1,7 +1,7 @@
 // Films: the pictures of a route, or of an object that turns, one after another, as a video or as a zip of frames.
 
 import type { Block } from "./api/client";
-import { LINEAR } from "./blend";
+import { type Mixing, picturesMix } from "./blend";
 import type { Context } from "./context";
 import { type Ingredient, namesIn, only, toDocument } from "./recipe";
 import type { Reel } from "./reel";
@@ -9,7 +9,7 @@ import { Photographer } from "./render/photograph";
 import { mixedName, Tables } from "./render/tables";
 import { recipeAt } from "./route";
 import { turned, type View } from "./scene";
-import { blendOf } from "./shown";
+import { mixingOf } from "./shown";
 import type { State } from "./state";
 
 export const MOTIONS = ["route", "there and back", "turntable"] as const;
@@ -35,18 +35,18 @@ export function frameCount({ seconds }: Film): number {
 export interface Frame {
   readonly view: View;
   readonly recipe: readonly Ingredient[];
-  readonly blend: string;
+  readonly mixing: Mixing;
 }
 
 export function frameAt(state: State, motion: Motion, i: number, n: number): Frame {
   if (motion === "turntable") {
     const orbit = turned(state.orbit, (2 * Math.PI * i) / n, 0);
-    return { view: { ...state, orbit }, recipe: state.recipe, blend: blendOf(state) };
+    return { view: { ...state, orbit }, recipe: state.recipe, mixing: mixingOf(state) };
   }
   const { route } = state;
   if (route === null) throw new Error("there is no route yet.");
   const t = motion === "route" ? i / (n - 1) : 1 - Math.abs(1 - (2 * i) / n);
-  return { view: state, recipe: recipeAt(route, t), blend: route.blend };
+  return { view: state, recipe: recipeAt(route, t), mixing: route };
 }
 
 /** Draw all frames of a film onto a reel; `tell` hears how many are done, and `stopped` ends it. */
@@ -70,15 +70,15 @@ export async function shoot(
   if (environment === undefined) throw new Error("its light has not come yet.");
   const n = frameCount(film);
   const frames = Array.from({ length: n }, (_, i) => frameAt(state, film.motion, i, n));
-  const names = namesIn(...frames.filter(({ blend }) => blend === LINEAR).map(({ recipe }) => recipe));
+  const names = namesIn(...frames.filter(({ mixing }) => picturesMix(mixing)).map(({ recipe }) => recipe));
   const tables = new Tables(client, grid);
   const camera = new Photographer(tables, state.library.lights, film.size, names.length);
   const look = { other: [], split: 1, exposure: 2 ** state.exposure, tone: state.tone, environment };
   try {
     await arrived(tables, names, stopped);
-    for (const [i, { view, recipe, blend }] of frames.entries()) {
+    for (const [i, { view, recipe, mixing }] of frames.entries()) {
       tell(i, n);
-      const drawn = blend === LINEAR ? recipe : only(await mixed(i, recipe, blend));
+      const drawn = picturesMix(mixing) ? recipe : only(await mixed(i, recipe, mixing));
       const picture = await camera.take({
         ...look,
         view,
@@ -95,11 +95,11 @@ export async function shoot(
   }
 
   /** The table of a mix, of its own for each recipe. */
-  async function mixed(i: number, recipe: readonly Ingredient[], blend: string): Promise<string> {
+  async function mixed(i: number, recipe: readonly Ingredient[], mixing: Mixing): Promise<string> {
     const isSame = i > 0 && frames[i - 1]!.recipe === recipe;
     const name = mixedName(`film ${isSame ? 0 : i}`);
     if (tables.get(name) === undefined) {
-      const document = toDocument(state.library.name, recipe, blend);
+      const document = toDocument(state.library.name, recipe, mixing);
       const { halfs, scale }: Block = await client.mixed(document, false, stopped);
       tables.put({ name, grid, halfs, scale });
     }

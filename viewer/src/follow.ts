@@ -2,7 +2,7 @@
 
 import type { Block } from "./api/client";
 import type { RecipeDocument } from "./api/schema";
-import { LINEAR } from "./blend";
+import { type Mixing, picturesMix } from "./blend";
 import { toDrawable } from "./brdf/grid";
 import { followChoice } from "./choosing";
 import { comparedSpace } from "./compared";
@@ -15,7 +15,7 @@ import { Refined } from "./refined";
 import { mixedName } from "./render/tables";
 import { join, type Route, reversed } from "./route";
 import { toText } from "./shortlist";
-import { blendOf, DRAWN, otherBlendOf } from "./shown";
+import { DRAWN, mixingOf, otherMixingOf } from "./shown";
 import { LINKED, type MixedKey, type Panel, type State, usualBlend } from "./state";
 import { shortName } from "./title";
 import { comingUp, shownNames } from "./wanted";
@@ -75,8 +75,9 @@ async function fetchRoute(
 ): Promise<Route> {
   const leg = async (stop: string, i: number) => {
     const start = stops[i]!;
-    if (names.indexOf(start) < names.indexOf(stop)) return client.leg(space, blend, start, stop, running);
-    return reversed(await client.leg(space, blend, stop, start, running));
+    if (names.indexOf(start) < names.indexOf(stop))
+      return client.leg(space, blend, start, stop, pace, running);
+    return reversed(await client.leg(space, blend, stop, start, pace, running));
   };
   // A browser asks few questions at once: one, while the space that they all need is being computed.
   const [first, ...others] = stops.slice(1);
@@ -133,11 +134,11 @@ function fetchMixes(context: Context): void {
   const other = mixedTable(context, "otherMixed");
   const ghosts = mixedTable(context, "ghostMixed");
   store.watch(["recipe", "route", "otherRecipe", "otherRoute", "ghost"], (state) => {
-    const document = (recipe: readonly Ingredient[], blend: string) =>
-      recipe.length === 0 || blend === LINEAR ? null : toDocument(state.library.name, recipe, blend);
-    own.want(document(state.recipe, blendOf(state)));
-    other.want(document(state.otherRecipe, otherBlendOf(state)));
-    ghosts.want(state.ghost && document(state.ghost.recipe, state.ghost.blend));
+    const document = (recipe: readonly Ingredient[], mixing: Mixing) =>
+      recipe.length === 0 || picturesMix(mixing) ? null : toDocument(state.library.name, recipe, mixing);
+    own.want(document(state.recipe, mixingOf(state)));
+    other.want(document(state.otherRecipe, otherMixingOf(state)));
+    ghosts.want(state.ghost && document(state.ghost.recipe, state.ghost));
   });
 }
 

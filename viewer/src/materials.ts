@@ -150,6 +150,12 @@ export function matching(all: readonly Described[], query: string): string[] {
     .filter((name) => words.every((word) => name.toLowerCase().includes(word)));
 }
 
+/** "red like chrome" is what materials have to be, and the name, or words, of one that they shall look like; null for no such query. */
+export function likeness(query: string): { readonly words: string; readonly like: string } | null {
+  const [, words = "", like] = /^(.*?)(?:^|\s)like\s+(\S.*)$/i.exec(query.trim()) ?? [];
+  return like === undefined ? null : { words: words.trim(), like };
+}
+
 /** 0 where the name has the word, 1 where the material is that, else 2. */
 function rankOf({ words, kind, colour, gloss }: Described, word: string): number {
   const isIn = (terms: readonly (string | null)[], start: string) =>

@@ -1,27 +1,34 @@
 // What instruments read: of all materials, once, when somebody needs it; and of what is shown, or what comes nearest to what is asked for.
 
 import type { FoundView, RecipeDocument } from "./api/schema";
-import type { Numbers } from "./asked";
+import { HIGHLIGHT, type Wishes } from "./asked";
 import type { Context } from "./context";
 import { toDocument } from "./recipe";
 import { Refined } from "./refined";
 import { recipeAt } from "./route";
-import { blendOf } from "./shown";
+import { shownDocument } from "./shown";
 import { GRID, NUMBERS, type State } from "./state";
 
 /** Attributes that have a slider, in their order. */
 export const SLIDERS = ["gloss60", "haze", "highlight_width", "albedo", "L", "a", "b"];
 
+const TAKES_A_SERVER =
+  "The link asks for a material by its numbers or its body colour, which files do not find: open the library with `halfway view`.";
+
 interface Question {
   readonly like: RecipeDocument;
-  readonly set: Numbers;
+  readonly set: Wishes;
+  readonly release: readonly string[];
 }
 
 export function followNumbers(context: Context): void {
   const { client, store, actions } = context;
   fetchAttributes(context);
   const { find } = client;
-  if (find === undefined) return;
+  if (find === undefined) {
+    if (store.get().asked) actions.say("recipe", "numbers", TAKES_A_SERVER);
+    return;
+  }
   const numbers = new Refined<Question, FoundView>({
     ask: (question, draft, signal) => find({ ...question, draft, ranges: draft ? [] : SLIDERS }, signal),
     onAnswer: actions.setNumbers,
@@ -33,22 +40,25 @@ export function followNumbers(context: Context): void {
   );
 }
 
-/** Null where nobody wants to know, or what is asked about is not known yet. */
-function question(state: State): Question | null {
-  const { library, aside, map, asked, recipe, route, t, point, atPoint } = state;
-  if (asked === null) {
-    const like = toDocument(library.name, recipe, blendOf(state));
-    return (aside === "numbers" || map === NUMBERS) && recipe.length > 0 ? { like, set: {} } : null;
-  }
-  const there = point ? atPoint?.recipe : route && toDocument(library.name, recipeAt(route, t), route.blend);
-  const like = asked.like ?? there;
-  return like ? { like, set: asked.set } : null;
+/** Whether the numbers of what is shown are those that came last, or are asked for. */
+export function isMeasured({ aside, map, asked }: Pick<State, "aside" | "map" | "asked">): boolean {
+  return asked !== null || aside === "numbers" || map === NUMBERS;
 }
 
-function needsAttributes({ aside, asked, query, map, tint }: State): boolean {
-  return (
-    [query, tint].some(Boolean) || asked !== null || aside === "numbers" || [GRID, NUMBERS].includes(map)
-  );
+/** Null where nobody wants to know, or what is asked about is not known yet. */
+function question(state: State): Question | null {
+  const { library, asked, recipe, route, t, point, atPoint } = state;
+  if (asked === null)
+    return isMeasured(state) && recipe.length > 0
+      ? { like: shownDocument(state), set: {}, release: [] }
+      : null;
+  const there = point ? atPoint?.recipe : route && toDocument(library.name, recipeAt(route, t), route);
+  const like = asked.like ?? there;
+  return like ? { like, set: asked.set, release: asked.loose ? HIGHLIGHT : [] } : null;
+}
+
+function needsAttributes(state: State): boolean {
+  return [state.query, state.tint].some(Boolean) || state.map === GRID || isMeasured(state);
 }
 
 function fetchAttributes({ client, store, actions }: Context): void {

@@ -1,7 +1,7 @@
 // What the page shows, in the part of the address after #: a link, or a reload, comes back to the same view.
 
 import type { LibrarySummary } from "./api/schema";
-import type { Asked } from "./asked";
+import { type Asked, BODY } from "./asked";
 import { asCompared } from "./compared";
 import { clamp } from "./numbers";
 import { EXPOSURES, HOME, LIGHTS, type Orbit, TONES, TURNS, zoomed } from "./scene";
@@ -43,9 +43,7 @@ export function toHash(linked: Linked): string {
     plot: linked.plot,
     aside: linked.aside,
     // What was found like one of the shortlist stays with the person who has it.
-    asked: Object.entries(linked.asked?.like === null ? linked.asked.set : {})
-      .map(([name, value]) => `${name}:${Number(value.toPrecision(5))}`)
-      .join(","),
+    asked: linked.asked?.like === null ? fromAsked(linked.asked) : "",
     orbit: [azimuth, elevation, zoom].map((x) => short(x, 3)).join(","),
   };
   return `#${Object.entries(fields)
@@ -108,12 +106,30 @@ export function unknownIn(hash: string, library: LibrarySummary): string | null 
   return `The link asks for ${unknown.join(", ")}, which the explorer of ${library.name} does not have: it is shown without.`;
 }
 
+/** `gloss60:12.5,body:7a2a3a,highlight:free`. */
+function fromAsked({ set, loose }: Asked): string {
+  const written = (value: number | string) =>
+    typeof value === "number" ? Number(value.toPrecision(5)) : value.slice(1);
+  const wishes = Object.entries(set).map(([name, value]) => `${name}:${written(value)}`);
+  return [...wishes, ...(loose ? [LOOSE] : [])].join(",");
+}
+
+const LOOSE = "highlight:free";
+
 function toAsked(parts: readonly string[]): Asked | undefined {
   const pairs = parts
+    .filter((part) => part !== LOOSE)
     .map((part) => part.split(":"))
-    .map(([name = "", value]) => [name, Number.parseFloat(value ?? "")] as const);
-  if (pairs.length === 0 || !pairs.every(([, value]) => Number.isFinite(value))) return undefined;
-  return { like: null, set: Object.fromEntries(pairs) };
+    .map(
+      ([name = "", value = ""]) =>
+        [name, name === BODY ? toColour(value) : Number.parseFloat(value)] as const,
+    );
+  if (pairs.length === 0 || pairs.some(([, value]) => Number.isNaN(value))) return undefined;
+  return { like: null, set: Object.fromEntries(pairs), loose: parts.includes(LOOSE) };
+}
+
+function toColour(digits: string): string | number {
+  return /^[0-9a-f]{6}$/i.test(digits) ? `#${digits}` : Number.NaN;
 }
 
 function toAxes(names: readonly string[]): Linked["axes"] | undefined {

@@ -1,6 +1,6 @@
 // Looking before choosing: what the pointer rests on is drawn on the object, until it leaves, or something else happens.
 
-import { LINEAR } from "./blend";
+import { PLAIN } from "./blend";
 import type { Context } from "./context";
 import { fromDocument, only } from "./recipe";
 import type { Ghost, Pointed, State } from "./state";
@@ -10,7 +10,7 @@ const REST = 180;
 
 /** A material of the library, to be looked at. */
 export function materialAsGhost(name: string): Ghost {
-  return { name, recipe: only(name), blend: LINEAR };
+  return { name, recipe: only(name), ...PLAIN };
 }
 
 export function followPointer(context: Context): void {

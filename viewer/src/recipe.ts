@@ -1,7 +1,7 @@
 // Recipes: materials and their weights, in each channel.
 
 import type { RecipeDocument } from "./api/schema";
-import { LINEAR } from "./blend";
+import { bodyScale, type Mixing, PLAIN } from "./blend";
 
 export const CHANNELS = ["r", "g", "b"] as const;
 
@@ -15,7 +15,7 @@ export interface Ingredient {
 export function toDocument(
   library: string,
   recipe: readonly Ingredient[],
-  blend: string = LINEAR,
+  mixing: Mixing = PLAIN,
 ): RecipeDocument {
   const [r, g, b] = CHANNELS.map((_, c) =>
     Object.fromEntries(
@@ -23,7 +23,13 @@ export function toDocument(
     ),
   );
   const same = recipe.every(({ weight: [x, y, z] }) => x === y && y === z);
-  return { library, blend, weights: same ? r! : { r: r!, g: g!, b: b! } };
+  const scale = bodyScale(mixing);
+  return {
+    library,
+    blend: mixing.blend,
+    weights: same ? r! : { r: r!, g: g!, b: b! },
+    ...(scale && { body_scale: scale }),
+  };
 }
 
 export function fromDocument({ weights }: RecipeDocument): Ingredient[] {

@@ -4,7 +4,7 @@
 
 import { Problem } from "./api/client";
 import type { LibrarySummary, RecipeDocument } from "./api/schema";
-import { LINEAR } from "./blend";
+import { bodyScale, LINEAR } from "./blend";
 import { fromDocument, type Ingredient, namesIn } from "./recipe";
 
 export interface Kept {
@@ -63,7 +63,13 @@ function parsed(text: string, file: string) {
 
 function checked(recipe: unknown, file: string, library: LibrarySummary): RecipeDocument {
   // Without a blend it is linear, as in Python.
-  const document: RecipeDocument = { blend: LINEAR, ...Object(recipe) };
+  const { weights, body_scale, blend = LINEAR, ...rest } = Object(recipe);
+  const document: RecipeDocument = {
+    library: rest.library,
+    blend,
+    weights,
+    ...(body_scale && { body_scale }),
+  };
   if (typeof document.weights !== "object" || document.weights === null)
     throw new Problem(`${file} has no weights: expected a recipe, or a shortlist that this page saved.`);
   if (document.library !== library.name)
@@ -73,6 +79,10 @@ function checked(recipe: unknown, file: string, library: LibrarySummary): Recipe
   if (!library.blends.includes(document.blend))
     throw new Problem(
       `${file} blends by ${document.blend}: this page draws ${library.blends.join(", ")}. \`halfway render\` draws it.`,
+    );
+  if (bodyScale(document) && !library.recolours)
+    throw new Problem(
+      `${file} has its body scaled, which takes a server: this page draws mixes alone. \`halfway render\` draws it.`,
     );
   return document;
 }

@@ -1,29 +1,37 @@
 // What is shown of the state: which recipe, mixed how, drawn from which tables.
 
-import { LINEAR } from "./blend";
+import type { RecipeDocument } from "./api/schema";
+import { type Mixing, PLAIN, picturesMix } from "./blend";
 import { comparedKept } from "./compared";
-import type { Ingredient } from "./recipe";
+import { type Ingredient, toDocument } from "./recipe";
 import type { State } from "./state";
 
 /** How what is shown is mixed. */
-export function blendOf({ held, atPoint, route }: Pick<State, "held" | "atPoint" | "route">): string {
-  return (held ?? atPoint)?.recipe.blend ?? route?.blend ?? LINEAR;
+export function mixingOf({ held, atPoint, route }: Pick<State, "held" | "atPoint" | "route">): Mixing {
+  return (held ?? atPoint)?.recipe ?? route ?? PLAIN;
+}
+
+export type Shown = Pick<State, "library" | "recipe" | "held" | "atPoint" | "route">;
+
+/** What is shown, as a document. */
+export function shownDocument(state: Shown): RecipeDocument {
+  return toDocument(state.library.name, state.recipe, mixingOf(state));
 }
 
 /** How what it is compared with is mixed. */
-export function otherBlendOf(state: Pick<State, "compare" | "kept" | "otherRoute">): string {
-  return comparedKept(state)?.recipe.blend ?? state.otherRoute?.blend ?? LINEAR;
+export function otherMixingOf(state: Pick<State, "compare" | "kept" | "otherRoute">): Mixing {
+  return comparedKept(state)?.recipe ?? state.otherRoute ?? PLAIN;
 }
 
 /** What pictures are made of: the recipe's materials where their pictures mix, else its own table. A ghost stands before it. */
 export function drawnOf(state: State): readonly Ingredient[] {
   const { ghost } = state;
-  if (ghost) return ghost.blend === LINEAR ? ghost.recipe : state.ghostMixed;
-  return blendOf(state) === LINEAR ? state.recipe : state.mixed;
+  if (ghost) return picturesMix(ghost) ? ghost.recipe : state.ghostMixed;
+  return picturesMix(mixingOf(state)) ? state.recipe : state.mixed;
 }
 
 export function otherDrawnOf(state: State): readonly Ingredient[] {
-  return otherBlendOf(state) === LINEAR ? state.otherRecipe : state.otherMixed;
+  return picturesMix(otherMixingOf(state)) ? state.otherRecipe : state.otherMixed;
 }
 
 /** What of the state says what is drawn. */

@@ -3,7 +3,7 @@
 import type { Waiting } from "./api/patient";
 import type { AttributeView, FoundView, LibrarySummary, PositionView, SpaceView } from "./api/schema";
 import type { Asked } from "./asked";
-import { LINEAR } from "./blend";
+import { LINEAR, type Mixing } from "./blend";
 import { ANYTHING, type Described, type Facets, type Order } from "./materials";
 import type { Ingredient } from "./recipe";
 import type { Route } from "./route";
@@ -65,6 +65,8 @@ export interface State extends View {
   readonly query: string;
   readonly facets: Facets;
   readonly order: Order;
+  /** What is searched by likeness to a material. */
+  readonly alike: Alike | null;
   /** Materials that fit what is searched or chosen; null when nothing is. */
   readonly matches: readonly string[] | null;
   readonly view: SpaceView | null;
@@ -114,13 +116,18 @@ export interface State extends View {
   readonly future: readonly Whereabouts[];
 }
 
+/** How different people find each material from one, in the library's order; null until it has come. */
+export interface Alike {
+  readonly to: string;
+  readonly distances: readonly number[] | null;
+}
+
 export type MixedKey = "mixed" | "otherMixed" | "ghostMixed";
 
 /** A material that is looked at before it is chosen, and what it is called. */
-export interface Ghost {
+export interface Ghost extends Mixing {
   readonly name: string;
   readonly recipe: readonly Ingredient[];
-  readonly blend: string;
 }
 
 /** One, or a point of the space that is shown. */
@@ -132,8 +139,8 @@ export const GRID = "Grid";
 /** The map whose axes are attributes. */
 export const NUMBERS = "Numbers";
 
-/** Where a person is in the library's spaces, but for t: what undo goes back to. */
-export type Whereabouts = Pick<State, "space" | "blend" | "pace" | "stops" | "point">;
+/** Where a person is in the library's spaces, but for t, and what is asked for there: what undo goes back to. */
+export type Whereabouts = Pick<State, "space" | "blend" | "pace" | "stops" | "point" | "asked">;
 
 /** What a link carries. */
 // biome-ignore format: it is one list.
@@ -175,6 +182,7 @@ const NOTHING = {
   query: "",
   facets: ANYTHING,
   order: "library",
+  alike: null,
   matches: null,
   view: null,
   route: null,

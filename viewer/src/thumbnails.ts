@@ -2,7 +2,7 @@
 
 import type { Client, Pictures } from "./api/client";
 import type { RecipeDocument } from "./api/schema";
-import { LINEAR } from "./blend";
+import { bodyScale, type Mixing, PLAIN, picturesMix } from "./blend";
 import { toByte } from "./colour";
 import { el } from "./dom";
 import { pauseAfter } from "./paced";
@@ -12,8 +12,6 @@ import { addTo, toScreen, valueAt } from "./rgbe";
 /** Pictures of mixes that are asked for together, and that are kept: 16 KB each. */
 const AT_ONCE = 64;
 const MAX_MIXES = 256;
-/** Blocks along a side, to tell pictures apart by. */
-const COARSE = 8;
 
 export class Thumbnails {
   size = 64;
@@ -46,8 +44,8 @@ export class Thumbnails {
   }
 
   /** The picture of a recipe, ready for a canvas; until it is made the linear one stands in, and `then` runs when it is. */
-  picture(recipe: readonly Ingredient[], blend: string = LINEAR, then: () => void = () => {}): ImageData {
-    const own = this.ofMix(recipe, blend, then);
+  picture(recipe: readonly Ingredient[], mixing: Mixing = PLAIN, then: () => void = () => {}): ImageData {
+    const own = this.ofMix(recipe, mixing, then);
     return this.disc(own ? toScreen(own) : this.sum(recipe));
   }
 
@@ -71,9 +69,10 @@ export class Thumbnails {
   }
 
   /** The picture of a mix; null where it is the sum of its materials', or is not there, and is asked for. */
-  private ofMix(recipe: readonly Ingredient[], blend: string, then: () => void): Uint8Array | null {
-    if (blend === LINEAR || recipe.length < 2) return null;
-    const document = toDocument(this.library, recipe, blend);
+  private ofMix(recipe: readonly Ingredient[], mixing: Mixing, then: () => void): Uint8Array | null {
+    // In every blend one material is itself.
+    if (picturesMix(mixing) || (recipe.length < 2 && bodyScale(mixing) === null)) return null;
+    const document = toDocument(this.library, recipe, mixing);
     const key = JSON.stringify(document);
     const known = this.mixes.get(key) ?? null;
     if (known !== null) return known;
@@ -121,20 +120,14 @@ export class Thumbnails {
     for (const then of waiting) then();
   }
 
-  /** How different two recipes look: the distance of their pictures' blocks, in about the scale of lightness. */
-  distance(a: readonly Ingredient[], b: readonly Ingredient[], blend: string = LINEAR): number {
-    const [x, y] = [this.blocks(a, COARSE), this.blocks(b, COARSE, blend)];
-    return Math.hypot(...x.map((value, i) => Math.cbrt(value) - Math.cbrt(y[i]!)));
-  }
-
-  /** The picture of a recipe averaged to `n` x `n` blocks, linear RGB one after another; of another blend as `picture`. */
+  /** The picture of a recipe averaged to `n` x `n` blocks, linear RGB one after another; of another mixing as `picture`. */
   blocks(
     recipe: readonly Ingredient[],
     n: number,
-    blend: string = LINEAR,
+    mixing: Mixing = PLAIN,
     then: () => void = () => {},
   ): Float32Array {
-    const own = this.ofMix(recipe, blend, then);
+    const own = this.ofMix(recipe, mixing, then);
     if (own) return this.average(own, n);
     const sum = new Float32Array(3 * n * n);
     for (const { name, weight } of recipe) {

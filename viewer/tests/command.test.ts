@@ -75,7 +75,7 @@ test("a material that is turned is rendered so, and a table that depends on phi_
 test("what was found for numbers is made by find, like a place on a route, a point, a material or a file", () => {
   const recipe = { library: "lab", blend: "lobes", weights: { a: 0.5, b: 0.5 } };
   const held = { id: "found", name: "t, haze 2", note: "", recipe, link: "" };
-  const asked = { like: null, set: { haze: 2, L: 41.234 } };
+  const asked = { like: null, set: { haze: 2, L: 41.234 }, loose: false };
   const shown = { ...ON_ROUTE, held, asked } as const;
   const wished = "--set haze=2 --set L=41.2 --blend lobes --clamp -o 't, haze 2.binary'";
   const [made, , rendered] = toCommand(shown).split(/ && (?=halfway (find|render))/);
@@ -84,6 +84,10 @@ test("what was found for numbers is made by find, like a place on a route, a poi
   );
   expect(toCommand(shown)).toContain(
     `&& halfway find 'my files/lab.brdflib' --like like/recipes.json:0 ${wished} && halfway render`,
+  );
+  const body = { like: null, set: { body: "#7a2a3a" }, loose: true };
+  expect(toCommand({ ...shown, asked: body })).toContain(
+    "--set 'body=#7a2a3a' --release gloss20 --release gloss60 --release gloss85 --release haze --release highlight_width --blend",
   );
   expect(rendered).toBeDefined();
   expect(toCommand({ ...shown, point: [1] })).toMatch(
@@ -108,11 +112,21 @@ test("a shortlist comes back from its file as it was", () => {
   expect({ ...again, id: "" }).toEqual({ ...kept[0], id: "" });
 });
 
+test("a recipe's file says more than the server takes, which is left out", () => {
+  const text =
+    '{"format": 3, "library": "lab", "weights": {"a": 1}, "body_scale": [1, 1, 2], "library_checksum": "1"}';
+  const [{ recipe }] = fromText(text, "x.json", { ...LIBRARY, recolours: true }) as [
+    ReturnType<typeof keptOf>,
+  ];
+  expect(recipe).toEqual({ library: "lab", blend: "linear", weights: { a: 1 }, body_scale: [1, 1, 2] });
+});
+
 test.each([
   ["{", "no JSON"],
   ["3", "has no weights"],
   ['{"library": "other", "weights": {"a": 1}}', "of the library other, and this is lab"],
   ['{"library": "lab", "blend": "lobes", "weights": {"a": 1}}', "blends by lobes"],
+  ['{"library": "lab", "weights": {"a": 1}, "body_scale": [1, 1, 2]}', "has its body scaled"],
   ['{"library": "lab", "weights": {"zz": 1}}', "needs zz"],
 ])("a file that is no recipe of this library is refused: %s", (text, said) => {
   expect(() => fromText(text, "x.json", LIBRARY)).toThrow(said);

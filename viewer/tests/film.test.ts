@@ -36,7 +36,7 @@ function shares(motion: Parameters<typeof frameAt>[1], n: number): number[] {
 
 test("a route is filmed from its first to its last stop, in its blend", () => {
   expect(shares("route", 5)).toEqual([0, 0.25, 0.5, 0.75, 1]);
-  expect(frameAt(STATE, "route", 0, 5).blend).toBe("root");
+  expect(frameAt(STATE, "route", 0, 5).mixing.blend).toBe("root");
 });
 
 test("there and back goes on with the first frame after the last", () => {

@@ -59,7 +59,7 @@ test("a mistake is Python's own line", async () => {
 test("a question taken back is not answered", async () => {
   const { client, sent, answer } = fake();
   const asked = new AbortController();
-  const leg = client.leg("paper", "linear", "a", "b", asked.signal);
+  const leg = client.leg("paper", "linear", "a", "b", "uniform", asked.signal);
   asked.abort();
   await expect(leg).rejects.toThrow("aborted");
   answer(sent[0]!.id, 200, text({}));

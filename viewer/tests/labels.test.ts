@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { labelPositions } from "../src/panels/space/labels";
+import { apart, labelPositions } from "../src/panels/space/labels";
 
 const at = (x: number, y: number) => ({ x, y, gap: 10 });
 
@@ -23,4 +23,14 @@ test("names on two sides of the turn meet in the middle", () => {
   // The points are near, their names are not.
   const [, apart] = labelPositions([at(615, 50), at(625, 50)], 1000);
   expect(apart!.y).toBe(50);
+});
+
+test("texts of axes stand beside each other and beside names, inside the panel", () => {
+  const box = { x: 50, y: 50, width: 80, height: 14 };
+  const name = { ...box, y: 64, height: 23 };
+  const [first, second] = apart([{ ...box, x: 20 }, box], [name], 400, 300);
+  expect(first).toMatchObject({ x: 40, y: 43 });
+  expect(second!.y).toBeLessThanOrEqual(29);
+  // What is in nobody's way stays.
+  expect(apart([{ ...box, y: 200 }], [name], 400, 300)).toEqual([{ ...box, y: 200 }]);
 });

@@ -1,7 +1,7 @@
 import { expect, test } from "vitest";
 
 import { toLab } from "../src/colour";
-import { ANYTHING, described, fits, inOrder, matching } from "../src/materials";
+import { ANYTHING, described, fits, inOrder, likeness, matching } from "../src/materials";
 
 const RED = [0.12, 0.03, 0.02];
 const GREY = [0.08, 0.08, 0.08];
@@ -82,4 +82,14 @@ test("an order is by what it says, and keeps the library's where nothing tells t
   expect(order("likeness").slice(0, 3)).toEqual(["ss440", "chrome", "red-fabric2"]);
   // Greys have no hue: they come after all that do, the dark ones first.
   expect(order("hue").at(-1)).toBe("ss440");
+});
+
+test.each([
+  ["like chrome", { words: "", like: "chrome" }],
+  ["red paint Like  gold", { words: "red paint", like: "gold" }],
+  ["like", null],
+  ["alike", null],
+  ["glossy", null],
+])("a search by likeness says what materials are like, and what they have to be: %s", (query, expected) => {
+  expect(likeness(query)).toEqual(expected);
 });

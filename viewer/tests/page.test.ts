@@ -6,7 +6,7 @@ import { fromHash, toHash } from "../src/permalink";
 import { only } from "../src/recipe";
 import { join, recipeAt } from "../src/route";
 import { keptOf } from "../src/shortlist";
-import { drawnOf } from "../src/shown";
+import { drawnOf, shownDocument } from "../src/shown";
 import { createState } from "../src/state";
 import { createStore } from "../src/store";
 import { golden } from "./golden";
@@ -31,6 +31,7 @@ const LIBRARY: LibrarySummary = {
   paces: ["uniform"],
   lights: [],
   exports: ["merl"],
+  recolours: true,
   notice: "",
 };
 
@@ -73,7 +74,7 @@ test("a link comes back to the same view", () => {
     tint: "gloss60",
     plot: "albedo",
     aside: "numbers",
-    asked: { like: null, set: { gloss60: 12.5, b: -3 } },
+    asked: { like: null, set: { gloss60: 12.5, body: "#7a2a3a", b: -3 }, loose: true },
   } as const;
   expect(fromHash(toHash(linked), LIBRARY)).toEqual(linked);
 });
@@ -192,6 +193,30 @@ test("a free point is one act, which undo takes back and redo brings again", () 
   actions.setT(0.5);
   actions.undo();
   expect(store.get().point).toEqual([0.3]);
+});
+
+test("what is asked for is one act, which undo takes back and redo brings again", () => {
+  const { store, actions } = page();
+  actions.setRoute(route);
+  for (const body of ["#102030", "#203050"]) actions.ask("body", body);
+  actions.loosen(true);
+  const asked = { like: null, set: { body: "#203050" }, loose: true };
+  expect(store.get().asked).toEqual(asked);
+  actions.undo();
+  expect(store.get().asked).toBeNull();
+  actions.redo();
+  expect(store.get().asked).toEqual(asked);
+  actions.setT(0.5);
+  actions.undo();
+  expect(store.get().asked).toEqual(asked);
+});
+
+test("a material whose body is scaled is drawn from a table of its own", () => {
+  const { store, actions } = page();
+  const recipe = { library: "small", blend: "linear", weights: { a: 1 }, body_scale: [1, 0.5, 2] } as const;
+  actions.hold(keptOf("kept", recipe, ""));
+  expect(drawnOf(store.get())).toEqual([]);
+  expect(shownDocument(store.get())).toEqual(recipe);
 });
 
 test("a stop is compared with as it is, whatever t", () => {

@@ -1,5 +1,6 @@
 import { expect, test, vi } from "vitest";
 import type { Pictures } from "../src/api/client";
+import { PLAIN } from "../src/blend";
 import { toSrgb } from "../src/colour";
 import { Appearance } from "../src/render/appearance";
 import { addTo, toScreen } from "../src/rgbe";
@@ -53,7 +54,7 @@ test("pictures of mixes that do not come are said, and asked for again", async (
   const thumbnails = filled(make);
   const said: (string | null)[] = [];
   thumbnails.onProblem = (problem) => said.push(problem);
-  const draw = vi.fn(() => thumbnails.blocks(HALVES, 1, "lobes", draw));
+  const draw = vi.fn(() => thumbnails.blocks(HALVES, 1, { blend: "lobes" }, draw));
   draw();
   await vi.advanceTimersByTimeAsync(0);
   expect(said).toEqual([expect.stringContaining("the disk is full")]);
@@ -72,7 +73,7 @@ test("a page that is gone asks no more", async () => {
   const gone = new AbortController();
   const make = vi.fn().mockRejectedValue(new Error("no"));
   const thumbnails = filled(make, gone);
-  const draw = () => void thumbnails.blocks(HALVES, 1, "lobes", draw);
+  const draw = () => void thumbnails.blocks(HALVES, 1, { blend: "lobes" }, draw);
   draw();
   await vi.advanceTimersByTimeAsync(0);
   gone.abort();
@@ -85,9 +86,9 @@ test("among looks a mix stands where its picture is, in its own blend", async ()
   // By this blend half of a and half of b looks like c.
   const thumbnails = filled(async (recipes) => flat(...recipes.map(() => [0, 0, 255, 128])));
   const map = new Appearance(NAMES, thumbnails);
-  const linear = map.pointOf(HALVES, "linear", () => {});
+  const linear = map.pointOf(HALVES, PLAIN, () => {});
   const point = await new Promise((resolve) => {
-    map.pointOf(HALVES, "lobes", () => resolve(map.pointOf(HALVES, "lobes", () => {})));
+    map.pointOf(HALVES, { blend: "lobes" }, () => resolve(map.pointOf(HALVES, { blend: "lobes" }, () => {})));
   });
   expect(map.points[2]!.distanceTo(point as typeof linear)).toBeLessThan(1e-6);
   expect(map.points[2]!.distanceTo(linear)).toBeGreaterThan(0.5);

@@ -108,8 +108,9 @@ def find(
                 write_recipe(output, control.library, recipe)
             else:
                 write_material(output, NamedBrdf.mixed(control.library, recipe, output.stem))
-    _say_given_up(recipe, like, control.given_up(recipe, wishes, like or None))
-    _show(recipe, control.attributes(recipe), as_json=as_json)
+    has = control.attributes(recipe)
+    _say_given_up(recipe, like, control.given_up(has, wishes, like or None))
+    _show(recipe, has, as_json=as_json)
     if output:
         say(
             f"{output}: a mix of {', '.join(recipe.names)}. Next: halfway render {output} -o new.png"

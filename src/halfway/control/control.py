@@ -3,7 +3,7 @@
 The weights are one row for all channels, so that what is linear in the table is linear in them.
 """
 
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -21,7 +21,7 @@ from ..instruments import (
 )
 from ..library import Library, LibraryRef, open_library
 from ..look import PACING_SCENE, Looks, SphereScene
-from ..recipes import Blend, Mixer, Recipe
+from ..recipes import Blend, Mixer, Recipe, open_recipe, split_address
 from ..tasks import HERE, Work
 from .nearness import Nearness
 from .programme import Goals, Weights, solve
@@ -86,6 +86,7 @@ class Control:
 
         In another blend than the linear one a ``draft`` has what is wished for roughly, and is found sooner.
         """
+        like = self._as_recipe(like)
         search = Search(
             control=self,
             like=like,
@@ -113,13 +114,14 @@ class Control:
         """The attributes of a recipe of the library, by name; of a linear one without its table."""
         return of_readings(self.reading(recipe))
 
-    def given_up(self, recipe: Recipe, wishes: Wishes, like: Like) -> dict[str, tuple[Any, Any]]:
-        """What a recipe should have kept of what it is like, and did not: the values there and here, by the attribute."""
+    def given_up(
+        self, here: Mapping[str, Any], wishes: Wishes, like: Like
+    ) -> dict[str, tuple[Any, Any]]:
+        """What a recipe with the attributes ``here`` should have kept of what it is like, and did not: the values there and here."""
         own = self.reference(like, wishes).readings
         if own is None:
             return {}
-        there, here = of_readings(own), self.attributes(recipe)
-        expected = of_readings(in_colour(own, wishes))
+        there, expected = of_readings(own), of_readings(in_colour(own, wishes))
         kept = [a for a in ATTRIBUTES.values() if a.group in wishes.held()]
         return {
             a.name: (there[a.name], here[a.name])
@@ -207,6 +209,15 @@ class Control:
         if recipe.pictures_mix:
             return self.readings.mix(recipe.dense(self.library.names), recipe.blend)
         return read_table(self.mixer.mix(recipe))
+
+    def _as_recipe(self, like: Like) -> Like:
+        """The recipe that a JSON file holds, where it is of the library; else what was given."""
+        if not isinstance(like, str) or like in self.library.names or ".json" not in like:
+            return like
+        if len(split_address(like)) > 1:
+            return like
+        library, recipe = open_recipe([like], library=self.library.address)
+        return recipe if library.checksum == self.library.checksum else like
 
     def recipe(self, weights: Weights, blend: Blend) -> Recipe:
         """The recipe of weights over all materials, the same in every channel."""

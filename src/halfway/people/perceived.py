@@ -102,7 +102,8 @@ class Perception:
         """By the materials of a library that has MERL's, or by the package's stand-ins of them; kept in the cache."""
         own = library if library and _has_merl(library) else None
         key = own.checksum if own else STAND_INS
-        arrays = work.cached(f"perception-1-{key}", lambda: _components(own, work))
+        compute = partial(_components, own, work) if own else _of_stand_ins
+        arrays = work.cached(f"perception-1-{key}", compute)
         return cls(**arrays)
 
     def scores(self, values: Values) -> Scores:
@@ -171,6 +172,12 @@ def _corners(grid: Grid) -> Corners:
 
 def _has_merl(library: Library) -> bool:
     return len(set(library.names) & set(builtin(STAND_INS).models)) == FULL_SET
+
+
+@cache
+def _of_stand_ins() -> dict[str, np.ndarray]:
+    """Seconds of work whose result is the package's own."""
+    return _components(None, HERE)
 
 
 def _components(library: Library | None, work: Work) -> dict[str, np.ndarray]:

@@ -8,6 +8,7 @@
     GET  /api/attributes                         the attributes of all materials
     POST /api/find                               the recipe that is like another and has some attributes
     POST /api/perceived                          how people would perceive a recipe
+    POST /api/alike                              how different people would find each material from a recipe
     GET  /api/tables/{material}                  a table as half floats (`blocks`)
     POST /api/mix                                the table of a recipe, as half floats; ?small=true: a small one
     GET  /api/thumbnails                         small pictures of all materials, with shared exponents
@@ -18,7 +19,7 @@
     GET  /api/docs.json                          this, as OpenAPI
 
 Spaces and legs take ``?blend=``; without it they are in the space's usual blend. Every mistake is answered as ``{"error": "one line"}``. What takes longer than the explorer's patience is answered with 202 and how far
-it is (`NotYet`): ask again. Large answers are compressed where the browser takes it, and name their content (ETag).
+it is (`NotYet`): ask again. ``?pace=people`` asks a leg for that pace, too. Large answers are compressed where the browser takes it, and name their content (ETag).
 """
 
 from collections.abc import AsyncIterator, Callable, Iterable, Mapping
@@ -43,6 +44,7 @@ from .making import NotYetError
 from .page import Asset, Page
 from .schema import (
     Added,
+    AlikeView,
     AttributesView,
     FoundView,
     LegView,
@@ -110,6 +112,7 @@ def app_of(
     app.add_middleware(Guard, hosts=tuple(hosts))
     _answer_mistakes(app)
     _add_queries(app, explorer)
+    _add_numbers(app, explorer)
     _add_blocks(app, explorer)
     if page is not None:
         _add_page(app, page)
@@ -126,24 +129,14 @@ def _add_queries(app: FastAPI, explorer: Explorer) -> None:
         return explorer.space_view(space, blend)
 
     @app.get("/api/legs/{space}/{start}/{stop}")
-    def leg(space: Name, start: Name, stop: Name, blend: str | None = None) -> LegView:
-        return explorer.leg(space, start, stop, blend)
+    def leg(
+        space: Name, start: Name, stop: Name, blend: str | None = None, pace: str = ""
+    ) -> LegView:
+        return explorer.leg(space, start, stop, blend, pace)
 
     @app.post("/api/position")
     def position(point: Point) -> PositionView:
         return explorer.position(point)
-
-    @app.get("/api/attributes")
-    def attributes() -> AttributesView:
-        return explorer.attributes()
-
-    @app.post("/api/find")
-    def find(wanted: Wanted) -> FoundView:
-        return explorer.find(wanted)
-
-    @app.post("/api/perceived")
-    def perceived(recipe: RecipeDocument) -> PerceptionView:
-        return explorer.perceived(recipe)
 
     @app.post("/api/export/{format}", response_class=Response, responses=BYTES)
     def export(format: Name, recipe: RecipeDocument) -> StreamingResponse:
@@ -161,6 +154,24 @@ def _add_queries(app: FastAPI, explorer: Explorer) -> None:
     async def add(file: Name, request: Request) -> Added:
         content = await request.body()
         return Added(name=await run_in_threadpool(explorer.add, file, content))
+
+
+def _add_numbers(app: FastAPI, explorer: Explorer) -> None:
+    @app.get("/api/attributes")
+    def attributes() -> AttributesView:
+        return explorer.attributes()
+
+    @app.post("/api/find")
+    def find(wanted: Wanted) -> FoundView:
+        return explorer.find(wanted)
+
+    @app.post("/api/perceived")
+    def perceived(recipe: RecipeDocument) -> PerceptionView:
+        return explorer.perceived(recipe)
+
+    @app.post("/api/alike")
+    def alike(recipe: RecipeDocument) -> AlikeView:
+        return explorer.alike(recipe)
 
 
 def _add_blocks(app: FastAPI, explorer: Explorer) -> None:

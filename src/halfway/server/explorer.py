@@ -22,10 +22,10 @@ from ..errors import HalfwayError, RecipeError, SpaceError
 from ..halfdiff import Grid
 from ..library import Joined, Library
 from ..look import Looks, small_grid
-from ..people import Perception
+from ..people import Impressions, apart
 from ..recipes import Blend, Mixer, Recipe
 from ..render import SCENES, studio
-from ..space import SPACES, Embedding, Route, Scores, Space, lengths, make_space
+from ..space import PACES, SPACES, Embedding, Route, Scores, Space, lengths, make_space
 from ..space import route as route_through
 from ..tasks import HERE, Work
 from .blocks import Block
@@ -33,6 +33,7 @@ from .drawable import bytes_on_card, coarsened, drawn, drawn_grid
 from .finding import attributes_view, found_view, perception_view
 from .making import Once, Progress
 from .schema import (
+    AlikeView,
     AttributesView,
     Axis,
     EmbeddingView,
@@ -59,8 +60,8 @@ TABLES_BYTES = 190e6
 """Of tables kept ready to be sent: 16 of the MERL grid."""
 N_LEGS = 1000
 """Legs kept ready to be sent, some 10 kB each."""
-PACES = ("perceptual", "uniform")
-"""Of `halfway.space.PACES`, those whose lengths take no time to speak of."""
+QUICK_PACES = ("perceptual", "uniform")
+"""Of `halfway.space.PACES`, those whose lengths take no time to speak of: every leg has them."""
 MAX_STOPS = 32
 MAX_PICTURES = 64
 
@@ -105,7 +106,7 @@ class Explorer:
         self._mixer = Mixer(library, n_rows=12)
         control = partial(Control.of, library, mixer=self._mixer, work=self._work)
         self._control = Once(control, progress)
-        self._perception = Once(partial(Perception.of, library, work=self._work), progress)
+        self._impressions = Once(partial(Impressions.fit, library, work=self._work), progress)
 
     def warm(self) -> None:
         """Compute what the first route needs: compiled metrics and solvers take a second to load."""
@@ -159,9 +160,11 @@ class Explorer:
             embeddings=[EmbeddingView.model_validate(each, from_attributes=True) for each in shown],
         )
 
-    def leg(self, space: str, start: str, stop: str, blend: str | None = None) -> LegView:
-        """The way from one material to another, of which the page makes its routes."""
-        return self._leg(space, start, stop, blend)
+    def leg(
+        self, space: str, start: str, stop: str, blend: str | None = None, pace: str = ""
+    ) -> LegView:
+        """The way from one material to another, of which the page makes its routes; with a ``pace`` that is not quick."""
+        return self._leg(space, start, stop, blend, pace == "people")
 
     def way(self, space: str, stops: Sequence[str], pace: str, blend: str | None = None) -> Route:
         """The route through ``stops``."""
@@ -189,8 +192,14 @@ class Explorer:
 
     def perceived(self, document: RecipeDocument) -> PerceptionView:
         """How people would perceive a recipe."""
-        perception = self._perception.get(self._patience)
+        perception = self._impressions.get(self._patience).perception
         return perception_view(perception, self._mixer.mix(self._recipe(document)))
+
+    def alike(self, document: RecipeDocument) -> AlikeView:
+        """How different people would find each material from a recipe."""
+        impressions, recipe = self._impressions.get(self._patience), self._recipe(document)
+        point = impressions.of(recipe.material or self._mixer.mix(recipe))
+        return AlikeView(distances=apart(impressions.points, point).tolist())
 
     def table(self, name: str) -> Block:
         """The table of one material."""
@@ -268,8 +277,15 @@ class Explorer:
         axes = [name.replace("_", " ") for name in scores.names]
         return Embedding(scores.label, "all", axes, scores.points, [])
 
-    def _leg_of(self, space: str, start: str, stop: str, blend: str | None) -> LegView:
-        return leg_view(Route.through(self.space(space, blend), [start, stop]), self.pictures)
+    def _leg_of(
+        self, space: str, start: str, stop: str, blend: str | None, is_by_people: bool
+    ) -> LegView:
+        route = Route.through(self.space(space, blend), [start, stop])
+        leg = leg_view(route, self.pictures)
+        if not is_by_people:
+            return leg
+        people = _pace_view(route, self._impressions.get(self._patience))
+        return leg.model_copy(update={"paces": {**leg.paces, "people": people}})
 
     def space(self, name: str, blend: str | None = None) -> Space:
         """The space called ``name``; with its usual blend unless another is named."""
@@ -284,16 +300,20 @@ def leg_view(route: Route, pictures: Looks) -> LegView:
     """A route of two stops as its knots, with the materials that carry weight anywhere on it."""
     used = route.used()
     r, g, b = route.way.weights[:, :, used].clip(0, 1).tolist()
-    t, length = lengths(route, pictures)
     return LegView(
         names=[route.names[i] for i in used],
         knots=route.way.knots.tolist(),
         weights=WeightTable(r=r, g=g, b=b),
         paces={
-            "perceptual": PaceView(t=t.tolist(), length=length.tolist()),
+            "perceptual": _pace_view(route, pictures),
             "uniform": PaceView(t=[0.0, 1.0], length=[0.0, 1.0]),
         },
     )
+
+
+def _pace_view(route: Route, by: Looks | Impressions) -> PaceView:
+    t, length = lengths(route, by)
+    return PaceView(t=t.tolist(), length=length.tolist())
 
 
 def _axes(grid: Grid) -> list[Axis]:

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from ..brdf import TabularBrdf
+from ..colour import Rgb, ciede2000, to_hex, to_lab
 from ..control import Control, Wishes
 from ..instruments import ATTRIBUTES, Attribute, attribute
 from ..people import Perception
@@ -15,6 +16,7 @@ from .schema import (
     AttributesView,
     AttributeView,
     FoundView,
+    GivenUp,
     PerceivedView,
     PerceptionView,
     RecipeDocument,
@@ -43,17 +45,37 @@ def _view(wanted: Attribute, control: Control) -> AttributeView:
 def found_view(control: Control, like: Recipe, wanted: Wanted) -> FoundView:
     """The recipe that misses least of what is wanted; without any wishes the one that it shall be like."""
     wishes = Wishes.of(wanted.set)
-    recipe = (
-        control.find(wishes, like=like, blend=like.blend, clamp=True, draft=wanted.draft)
-        if wanted.set
-        else like
-    )
+    recipe = _found(control, wishes, like, wanted) if wanted.set else like
     has = control.attributes(recipe)
+    lost = {} if wanted.draft else control.given_up(has, wishes, like)
     return FoundView(
         recipe=RecipeDocument.model_validate(recipe.to_json()),
         attributes={each.name: _or_none(has[each.name]) for each in _NUMBERS},
+        body=to_hex(has["body"]),
+        difference=_difference(wishes.exact.get("body"), has["body"]),
+        given_up=[_given_up(name, *values) for name, values in lost.items()],
         ranges=_ranges(control, wanted, has),
     )
+
+
+def _found(control: Control, wishes: Wishes, like: Recipe, wanted: Wanted) -> Recipe:
+    return control.find(
+        wishes,
+        like=like,
+        blend=like.blend,
+        clamp=True,
+        draft=wanted.draft,
+        release=wanted.release,
+    )
+
+
+def _difference(asked: Rgb | None, has: Rgb) -> float | None:
+    return None if asked is None else float(ciede2000(to_lab(asked), to_lab(has)))
+
+
+def _given_up(name: str, was: Any, now: Any) -> GivenUp:
+    written = attribute(name).written
+    return GivenUp(name=name, was=written(was), now=written(now))
 
 
 def perception_view(perception: Perception, table: TabularBrdf) -> PerceptionView:
@@ -75,7 +97,7 @@ def _ranges(
     }
 
 
-def _beside(name: str, asked: Mapping[str, float], has: Mapping[str, Any]) -> Wishes:
+def _beside(name: str, asked: Mapping[str, Any], has: Mapping[str, Any]) -> Wishes:
     """What is held while one of the attributes goes as far as it can."""
     held = {other: value for other, value in asked.items() if other != name}
     # a* and b* are read beside the lightness that there is; where that goes, they are free.

@@ -12,6 +12,7 @@ Channel = Literal["r", "g", "b"]
 Vector = tuple[float, float, float]
 Weight = Annotated[float, Field(ge=0, le=1)]
 WeightsByName = dict[str, Weight]
+Factor = Annotated[float, Field(ge=0)]
 
 
 class Model(BaseModel):
@@ -101,6 +102,8 @@ class LibrarySummary(Model):
     """Of the scene of three point lights."""
     exports: list[str]
     """Formats of ``/api/export/{format}``."""
+    recolours: bool = True
+    """Whether tables of recipes whose body is scaled are to be had."""
     notice: str = ""
     """One line that the page says from the start; empty for none."""
 
@@ -166,11 +169,13 @@ class ChannelWeights(Model):
 
 
 class RecipeDocument(Model):
-    """A recipe: barycentric weights over materials, and how they are mixed."""
+    """A recipe: barycentric weights over materials, how they are mixed, and what the body of that is multiplied by."""
 
     library: str
     blend: str = "linear"
     weights: ChannelWeights | WeightsByName
+    body_scale: tuple[Factor, Factor, Factor] | None = None
+    """In each channel; null for one that is as it was mixed."""
 
 
 class Point(Model):
@@ -217,11 +222,22 @@ class Wanted(Model):
 
     like: RecipeDocument
     """Its blend is that of both."""
-    set: Annotated[dict[str, float], Field(max_length=24)]
+    set: Annotated[dict[str, float | str], Field(max_length=24)]
+    """Numbers, and colours as #rrggbb."""
+    release: Annotated[list[str], Field(max_length=24)] = []
+    """What of the highlight need not be held beside another body colour."""
     ranges: Annotated[list[str], Field(max_length=24)] = []
     """Attributes of which the ends are wanted, too."""
     draft: bool = False
     """Whether a recipe will do that has them roughly, where its blend is not linear: it is found sooner."""
+
+
+class GivenUp(Model):
+    """An attribute that should have stayed what it was."""
+
+    name: str
+    was: str
+    now: str
 
 
 class FoundView(Model):
@@ -230,8 +246,21 @@ class FoundView(Model):
     recipe: RecipeDocument
     attributes: dict[str, float | None]
     """That it has."""
+    body: str
+    """The body colour that it has, as #rrggbb."""
+    difference: float | None
+    """Of that from the one that is wanted, in CIEDE2000; null where none is."""
+    given_up: list[GivenUp]
+    """What of the highlight, or the colour, was held and could not be; empty in a draft."""
     ranges: dict[str, tuple[float, float]]
     """How far each goes with the others held, of linear mixes; without those that no mix has beside them."""
+
+
+class AlikeView(Model):
+    """How different people would find each material from a recipe; see `halfway.people.Impressions`."""
+
+    distances: list[float]
+    """In the library's order."""
 
 
 class PerceivedView(Model):
@@ -254,6 +283,12 @@ class Added(Model):
     """A measurement that is a material of the library now."""
 
     name: str
+
+
+class AlikeFile(Model):
+    """How different people would find each two materials of a static explorer."""
+
+    distances: list[list[float]]
 
 
 class BlockFile(Model):

@@ -7,6 +7,7 @@
         data/charts/NAME.json       its simplices, where it has points to go to         schema.ChartsFile
         data/legs/NAME/I-J.json     the way from material I to material J, I < J        schema.LegView
         data/attributes.json        the attributes of all materials                     schema.AttributesView
+        data/alike.json             how different people find each two of them          schema.AlikeFile
         data/tables/I.bin           a table as half floats (`blocks`), gzip; so are
         data/thumbnails.bin, data/environment.bin       bytes with exponents, and half floats
 
@@ -31,14 +32,24 @@ from ..batch import filling
 from ..errors import DegenerateSpaceWarning, OutputError
 from ..library import Library
 from ..look import Looks
+from ..people import distances
 from ..recipes import Blend
 from ..space import SPACES, Route, Space, make_space
 from ..tasks import HERE, Work
 from .blocks import Block
-from .explorer import Explorer, leg_view
+from .explorer import QUICK_PACES, Explorer, leg_view
 from .guard import META_POLICY
 from .page import Page
-from .schema import BlockFile, ChartsFile, ChartView, Folder, LegView, LibrarySummary, Model
+from .schema import (
+    AlikeFile,
+    BlockFile,
+    ChartsFile,
+    ChartView,
+    Folder,
+    LegView,
+    LibrarySummary,
+    Model,
+)
 
 N_LARGEST = 40
 """Materials that a folder takes: 780 legs in each space, and some thousand simplices."""
@@ -80,6 +91,8 @@ def export(
         _write_page(files, page)
         _write_blocks(files, explorer, work)
         files.json("data/attributes.json", explorer.attributes())
+        alike = distances(library, work=work)
+        files.json("data/alike.json", AlikeFile(distances=alike.tolist()))
         for name in SPACES:
             _write_space(files, explorer, name, work)
         return Exported(files.n_files, files.n_bytes)
@@ -139,10 +152,13 @@ def _write_blocks(files: _Files, explorer: Explorer, work: Work) -> None:
 
 
 def _summary(explorer: Explorer) -> LibrarySummary:
-    """What a folder can do: pictures mix in the page where the blend is linear, and it writes no tables."""
+    """What a folder can do: pictures mix in the page where the blend is linear, and it makes no tables."""
     summary = explorer.summary()
     spaces = [space.model_copy(update={"usual_blend": BLEND}) for space in summary.spaces]
-    return summary.model_copy(update={"exports": [], "blends": [BLEND], "spaces": spaces})
+    makes_no_tables = {"exports": [], "blends": [BLEND], "recolours": False}
+    return summary.model_copy(
+        update={**makes_no_tables, "spaces": spaces, "paces": list(QUICK_PACES)}
+    )
 
 
 def small_space(name: str, library: Library, **options: Any) -> Space:

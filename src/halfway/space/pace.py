@@ -66,16 +66,18 @@ def perceptual(route: Route, images: Looks) -> Route:
 
 def by_people(route: Route, impressions: Impressions) -> Route:
     """The same way, as far from one material to the next as people would say."""
-    return paced(route, *_lengths(route, Measure(impressions.mix, apart)), pace="people")
+    return paced(route, *lengths(route, impressions), pace="people")
 
 
-def lengths(route: Route, images: Looks) -> tuple[Shares, Shares]:
-    """Some t, the knots among them, and the length of the route from its start to each, strictly ascending."""
-    look = partial(_look, images.thinned(THINNING))
-    return _lengths(route, Measure(look, ciede2000_difference))
+def lengths(route: Route, by: Looks | Impressions) -> tuple[Shares, Shares]:
+    """Some t, the knots among them, and the length of the route from its start to each, strictly ascending.
 
-
-def _lengths(route: Route, measure: Measure) -> tuple[Shares, Shares]:
+    By what is seen, or by what people would say.
+    """
+    if isinstance(by, Impressions):
+        measure = Measure(by.mix, apart)
+    else:
+        measure = Measure(partial(_look, by.thinned(THINNING)), ciede2000_difference)
     legs = [_leg(route, measure, start, stop) for start, stop in pairwise(route.stop_ts)]
     t = [t[:-1] for t, _ in legs]
     steps = np.concatenate([steps for _, steps in legs])

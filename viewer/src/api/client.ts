@@ -1,6 +1,7 @@
 // What the page asks for, whoever answers: a server (`http`), a folder of files (`files`), or a notebook's kernel (`kernel`).
 
 import type {
+  AlikeView,
   AttributesView,
   FoundView,
   LegView,
@@ -52,12 +53,13 @@ export interface Exported {
 export interface Client {
   readonly library: () => Promise<LibrarySummary>;
   readonly spaceView: (space: string, blend: string) => Promise<SpaceView>;
-  /** The way from one material to another that comes after it in the library. */
+  /** The way from one material to another that comes after it in the library; with this pace among its own. */
   readonly leg: (
     space: string,
     blend: string,
     start: string,
     stop: string,
+    pace: string,
     signal: AbortSignal,
   ) => Promise<LegView>;
   /** The material at a point of a space that has points. */
@@ -71,6 +73,8 @@ export interface Client {
   readonly attributes: () => Promise<AttributesView>;
   /** The recipe that is like another and has some attributes; who cannot has no such function. */
   readonly find?: (wanted: Wanted, signal: AbortSignal) => Promise<FoundView>;
+  /** How different people would find each material from a recipe, in the library's order. */
+  readonly alike: (recipe: RecipeDocument) => Promise<AlikeView>;
   /** How people would perceive a recipe; who cannot has no such function. */
   readonly perceived?: (recipe: RecipeDocument, signal: AbortSignal) => Promise<PerceptionView>;
   readonly thumbnails: () => Promise<Pictures>;

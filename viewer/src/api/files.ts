@@ -2,10 +2,10 @@
 
 import { locate } from "../charts";
 import { pointOf } from "../coordinates";
-import { toDocument } from "../recipe";
+import { fromDocument, toDocument } from "../recipe";
 import { type Block, type Client, Later, Problem } from "./client";
 import { read } from "./http";
-import type { BlockFile, ChartView, Folder, PositionView, SpaceView } from "./schema";
+import type { AlikeFile, BlockFile, ChartView, Folder, PositionView, SpaceView } from "./schema";
 
 export function files(base: string): Client {
   const kept = new Map<string, Promise<unknown>>();
@@ -32,6 +32,12 @@ export function files(base: string): Client {
       return position(await spaceView(space), charts, (await folder()).library.name, await names(), point);
     },
     attributes: () => json("attributes.json"),
+    alike: async (recipe) => {
+      const [only, ...others] = fromDocument(recipe);
+      if (!only || others.length) throw new Problem(OF_MATERIALS);
+      const { distances } = await json<AlikeFile>("alike.json");
+      return { distances: distances[(await names()).indexOf(only.name)]! };
+    },
     thumbnails: async () => ({
       bytes: new Uint8Array(await unpacked(`${base}thumbnails.bin`)),
       shape: (await folder()).thumbnails.shape,
@@ -46,6 +52,9 @@ export function files(base: string): Client {
     exported: cannotMix,
   };
 }
+
+const OF_MATERIALS =
+  "Files know how alike people find the materials, and not mixes: go to a stop, or open the library with `halfway view`.";
 
 async function cannotMix(): Promise<never> {
   throw new Problem("Files cannot mix tables: save the recipe, and `halfway mix` makes its table.");

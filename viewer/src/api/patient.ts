@@ -48,6 +48,7 @@ export function patient(
     leg: again(client.leg),
     at: again(client.at),
     attributes: again(client.attributes),
+    alike: again(client.alike),
     ...(client.find && { find: again(client.find) }),
     ...(client.perceived && { perceived: again(client.perceived) }),
     thumbnails: again(client.thumbnails),

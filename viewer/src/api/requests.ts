@@ -31,13 +31,14 @@ export function clientOver(ask: Ask): Client {
     library: async () => json(await get("api/library")),
     spaceView: async (space, blend) =>
       json(await get(`api/spaces/${encodeURIComponent(space)}?blend=${blend}`)),
-    leg: async (space, blend, start, stop, signal) => {
+    leg: async (space, blend, start, stop, pace, signal) => {
       const way = [space, start, stop].map(encodeURIComponent).join("/");
-      return json(await get(`api/legs/${way}?blend=${blend}`, signal));
+      return json(await get(`api/legs/${way}?blend=${blend}&pace=${pace}`, signal));
     },
     at: async (space, blend, point, signal) =>
       json(await post("api/position", { space, blend, point }, signal)),
     attributes: async () => json(await get("api/attributes")),
+    alike: async (recipe) => json(await post("api/alike", recipe)),
     find: async (wanted, signal) => json(await post("api/find", wanted, signal)),
     perceived: async (recipe, signal) => json(await post("api/perceived", recipe, signal)),
     mixed: async (recipe, small, signal) => block(await post(`api/mix?small=${small}`, recipe, signal)),

@@ -64,6 +64,7 @@ export interface LibrarySummary {
   readonly paces: readonly string[];
   readonly lights: readonly PointLight[];
   readonly exports: readonly string[];
+  readonly recolours: boolean;
   readonly notice: string;
 }
 
@@ -111,17 +112,18 @@ export interface ChannelWeights {
   readonly b: Readonly<Record<string, number>>;
 }
 
-/** A recipe: barycentric weights over materials, and how they are mixed. */
+/** A recipe: barycentric weights over materials, how they are mixed, and what the body of that is multiplied by. */
 export interface RecipeDocument {
   readonly library: string;
   readonly blend: string;
   readonly weights: ChannelWeights | Readonly<Record<string, number>>;
+  readonly body_scale?: readonly [number, number, number] | null;
 }
 
 /** A point of a space: the coordinates of its embeddings, one embedding after another. */
 export interface Point {
   readonly space: string;
-  readonly blend: string | null;
+  readonly blend?: string | null;
   readonly point: readonly number[];
 }
 
@@ -150,16 +152,32 @@ export interface AttributesView {
 /** A recipe that is like another one, and has these attributes. */
 export interface Wanted {
   readonly like: RecipeDocument;
-  readonly set: Readonly<Record<string, number>>;
+  readonly set: Readonly<Record<string, number | string>>;
+  readonly release: readonly string[];
   readonly ranges: readonly string[];
   readonly draft: boolean;
+}
+
+/** An attribute that should have stayed what it was. */
+export interface GivenUp {
+  readonly name: string;
+  readonly was: string;
+  readonly now: string;
 }
 
 /** The recipe that misses least of what is wanted. */
 export interface FoundView {
   readonly recipe: RecipeDocument;
   readonly attributes: Readonly<Record<string, number | null>>;
+  readonly body: string;
+  readonly difference: number | null;
+  readonly given_up: readonly GivenUp[];
   readonly ranges: Readonly<Record<string, readonly [number, number]>>;
+}
+
+/** How different people would find each material from a recipe; see `halfway.people.Impressions`. */
+export interface AlikeView {
+  readonly distances: readonly number[];
 }
 
 /** How a material is perceived in one respect; see `halfway.people.Perceived`. */
@@ -177,6 +195,11 @@ export interface PerceptionView {
 /** A measurement that is a material of the library now. */
 export interface Added {
   readonly name: string;
+}
+
+/** How different people would find each two materials of a static explorer. */
+export interface AlikeFile {
+  readonly distances: readonly (readonly number[])[];
 }
 
 /** What a file of numbers holds; see `halfway.server.blocks`. */

@@ -18,13 +18,19 @@ const BLENDS: Readonly<Record<string, string>> = {
   log: "weighted sums of log(1 + f): linear where dark, geometric in highlights",
 };
 
+const PACES: Readonly<Record<string, string>> = {
+  perceptual: "equal steps of t are equal to the eye",
+  people: "equal steps of t are what people would call equal",
+  uniform: "even in weights, the paper's",
+};
+
 export function head(context: Context): HTMLElement {
   const { store, options } = context;
   const { library } = store.get();
   const about = `${library.name}: ${library.description}`;
   const spaces = library.spaces.map(({ name, text }) => [name, text] as const);
   const blends = library.blends.map((name) => [name, BLENDS[name] ?? ""] as const);
-  const paces = library.paces.map((name) => [name, ""] as const);
+  const paces = library.paces.map((name) => [name, PACES[name] ?? ""] as const);
   return el(
     "header.line.head",
     el("h1.line.brand", el("i"), "halfway"),

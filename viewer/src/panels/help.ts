@@ -21,7 +21,14 @@ const WORDS: readonly (readonly [word: string, meaning: string])[] = [
   ],
   ["route, stops", "a way through two or more materials"],
   ["t", "where on the route: 0 at the first stop, 1 at the last"],
-  ["pace", "how t is spaced: equal steps to the eye (perceptual), or as the paper has it (uniform)"],
+  [
+    "pace",
+    "how t is spaced: equal steps to the eye (perceptual), steps that people would call equal, by a distance that was fitted to their answers (people), or as the paper has it (uniform)",
+  ],
+  [
+    "like",
+    "search for like chrome, or red like chrome: the materials that people find most alike come first, by the same distance",
+  ],
   ["recipe", "which materials, and how much of each: the weights are never negative and sum to 1"],
   ["blend", "how weighted materials become one. Here their tables are added up (linear)"],
   [

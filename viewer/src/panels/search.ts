@@ -5,7 +5,8 @@ import { el } from "../dom";
 import { clamp } from "../numbers";
 import { materialAsGhost } from "../pointing";
 
-const NOTHING = "None fits: try a colour, what it is made of, or matte, satin, glossy";
+const NOTHING = "None fits: try a colour, what it is made of, matte, satin, glossy, or like and a name";
+const COMPARING = "Comparing …";
 /** So many are listed; more is typed sooner than looked through. */
 const MOST = 40;
 
@@ -39,10 +40,10 @@ class Search {
       onkeydown: (event) => this.press(event),
     });
     this.element = el("div.search", this.input, el("kbd", "/"), this.list);
-    context.store.watch(["query", "matches"], ({ query, matches }) => {
+    context.store.watch(["query", "matches", "alike"], ({ query, matches, alike }) => {
       const isAsked = query.trim() !== "";
       this.open(isAsked);
-      this.fill(isAsked ? (matches ?? []) : []);
+      this.fill(isAsked ? (matches ?? []) : [], alike?.distances === null ? COMPARING : NOTHING);
     });
   }
 
@@ -59,10 +60,10 @@ class Search {
     this.context.store.set({ query: this.input.value });
   }
 
-  private fill(matches: readonly string[]): void {
+  private fill(matches: readonly string[], otherwise: string): void {
     this.matches = matches.slice(0, MOST);
     const items = this.matches.map((name, i) => this.item(name, i));
-    this.list.replaceChildren(...(items.length ? items : [el("li.line.none", NOTHING)]));
+    this.list.replaceChildren(...(items.length ? items : [el("li.line.none", otherwise)]));
     this.mark(0);
   }
 

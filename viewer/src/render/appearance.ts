@@ -6,6 +6,7 @@
 
 import { Vector3 } from "three";
 
+import type { Mixing } from "../blend";
 import { dot } from "../numbers";
 import { type Ingredient, only } from "../recipe";
 import type { Thumbnails } from "../thumbnails";
@@ -36,12 +37,12 @@ export class Appearance implements SpaceMap {
     this.points = points.map((p) => p.multiplyScalar(this.scale));
   }
 
-  pointOf(recipe: readonly Ingredient[], blend: string, then: () => void): Vector3 {
-    return this.project(this.centred(this.code(recipe, blend, then))).multiplyScalar(this.scale);
+  pointOf(recipe: readonly Ingredient[], mixing: Mixing, then: () => void): Vector3 {
+    return this.project(this.centred(this.code(recipe, mixing, then))).multiplyScalar(this.scale);
   }
 
-  private code(recipe: readonly Ingredient[], blend?: string, then?: () => void): Float64Array {
-    return Float64Array.from(this.thumbnails.blocks(recipe, BLOCKS, blend, then), Math.cbrt);
+  private code(recipe: readonly Ingredient[], mixing?: Mixing, then?: () => void): Float64Array {
+    return Float64Array.from(this.thumbnails.blocks(recipe, BLOCKS, mixing, then), Math.cbrt);
   }
 
   private centred(vector: Float64Array): Float64Array {

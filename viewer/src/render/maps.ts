@@ -7,6 +7,7 @@
 import { Matrix3, Vector3 } from "three";
 
 import type { EmbeddingView } from "../api/schema";
+import type { Mixing } from "../blend";
 import { mixedPoint } from "../coordinates";
 import { clamp } from "../numbers";
 import type { Ingredient } from "../recipe";
@@ -16,8 +17,8 @@ import { principalAxes } from "./axes";
 export interface SpaceMap {
   /** Of the materials, in the library's order, around the origin. */
   readonly points: readonly Vector3[];
-  /** Of a mix in a blend; where that takes a picture that is not there yet, roughly, and `then` runs when it is. */
-  readonly pointOf: (recipe: readonly Ingredient[], blend: string, then: () => void) => Vector3;
+  /** Of a mix; where that takes a picture that is not there yet, roughly, and `then` runs when it is. */
+  readonly pointOf: (recipe: readonly Ingredient[], mixing: Mixing, then: () => void) => Vector3;
 }
 
 /** A value on an axis, and where it is. */

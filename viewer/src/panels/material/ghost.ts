@@ -26,7 +26,7 @@ export function ghostTag(context: Context): HTMLElement {
     if (shown === null || !pictured) return;
     name.textContent = titleOf(shown);
     const draw = () =>
-      picture.getContext("2d")!.putImageData(thumbnails.picture(shown.recipe, shown.blend, draw), 0, 0);
+      picture.getContext("2d")!.putImageData(thumbnails.picture(shown.recipe, shown, draw), 0, 0);
     draw();
   });
   return element;

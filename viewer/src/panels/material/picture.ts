@@ -6,7 +6,7 @@ import { clamp } from "../../numbers";
 import { namesIn } from "../../recipe";
 import { NoCardError } from "../../render/card";
 import { Photographer } from "../../render/photograph";
-import { blendOf, drawnOf, otherDrawnOf } from "../../shown";
+import { drawnOf, mixingOf, otherDrawnOf } from "../../shown";
 import { materialName } from "../../title";
 
 const SIZES = [16, 4096] as const;
@@ -82,7 +82,7 @@ async function photographed(
     }
   } catch (error) {
     if (error instanceof NoCardError)
-      return smallPicture(thumbnails.picture(view.recipe, blendOf(view)), size);
+      return smallPicture(thumbnails.picture(view.recipe, mixingOf(view)), size);
     throw error;
   }
 }

@@ -2,7 +2,7 @@
 
 import type { Context } from "../../context";
 import { el } from "../../dom";
-import { blendOf } from "../../shown";
+import { mixingOf } from "../../shown";
 
 export function stillPictures(
   { store, thumbnails }: Context,
@@ -19,7 +19,7 @@ export function stillPictures(
     const state = store.get();
     const { recipe, pictured } = state;
     if (recipe.length === 0 || !pictured) return;
-    canvas.getContext("2d")!.putImageData(thumbnails.picture(recipe, blendOf(state), draw), 0, 0);
+    canvas.getContext("2d")!.putImageData(thumbnails.picture(recipe, mixingOf(state), draw), 0, 0);
     panel.dataset.ready = "still";
   };
   store.watch(["recipe", "pictured"], draw);

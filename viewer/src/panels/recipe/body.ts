@@ -1,39 +1,105 @@
-// The body colour of the present material, to be changed: everything else stays as near as a mix can be.
+// The body colour of the present material, to be changed: what was asked for and what there is, side by side.
 
-import { mappingOf } from "../../blend";
-import { fromHex, toHex } from "../../colour";
+import type { FoundView } from "../../api/schema";
+import { type Asked, BODY, givenUp, HIGHLIGHT } from "../../asked";
+import { bodyScale, unmapped } from "../../blend";
+import { toHex } from "../../colour";
 import type { Context } from "../../context";
-import { coordinatesIn, pointOf, withCoordinates } from "../../coordinates";
-import { el } from "../../dom";
-import { isAway } from "../../shown";
+import { coordinatesIn, pointOf } from "../../coordinates";
+import { el, iconButton } from "../../dom";
+import { isMeasured } from "../../measuring";
+import { isAway, mixingOf } from "../../shown";
+import type { State } from "../../state";
 
-const BODY = "Body colour";
+const TITLE = "Body colour";
+const KEEP = "Gloss, haze and the highlight's width stay what they are, as far as that body lets them";
+/** Differences in CIEDE2000 that are not seen. */
+const UNSEEN = 0.5;
 
-export function bodyColour({ store, actions, names }: Context): HTMLElement {
-  const choose = () => {
-    const { view, point, recipe, blend } = store.get();
-    if (view === null) return;
-    // A matte surface of reflectance x has x / pi in 1/sr.
-    const body = fromHex(input.value).map((x) => mappingOf(blend).to(x / Math.PI));
-    actions.goTo(withCoordinates(view, point ?? pointOf(view, names, recipe), BODY, body));
-  };
-  const input = el("input", { type: "color", "aria-label": BODY, oninput: choose });
-  const label = el("label.line", input, BODY);
+export function bodyColour(context: Context): HTMLElement {
+  const { store, actions, names, client } = context;
+  const input = el("input", {
+    type: "color",
+    "aria-label": TITLE,
+    oninput: () => actions.ask(BODY, input.value),
+  });
+  const label = el("label.line", input, TITLE);
+  label.hidden = client.find === undefined;
   const note = el("span.note", { role: "status" });
   const leave = () => actions.setT(store.get().t);
   const back = el("button.button", { type: "button", onclick: leave }, "Back to route");
-  const element = el("div.line.wrap.adjustment", label, note, back);
-  store.watch(["view", "recipe", "atPoint", "held"], ({ view, recipe, atPoint, held, blend }) => {
-    const has = !!view?.has_points && view.embeddings.some(({ name }) => name === BODY);
-    const away = isAway({ atPoint, held });
-    element.hidden = !has && !away;
-    label.hidden = !has;
+  const element = el("div.line.wrap.adjustment", label, back, note, answer(context));
+  store.watch(["view", "recipe", "atPoint", "held", "numbers", "aside", "map", "asked"], (state) => {
+    const { recipe, atPoint, held } = state;
+    element.hidden = label.hidden && !isAway({ atPoint, held });
     input.disabled = recipe.length === 0;
-    back.hidden = !away;
+    back.hidden = !isAway({ atPoint, held });
     note.textContent = atPoint === null || atPoint.inside ? "" : "no mix is just there: this is one nearby";
-    if (!view || !has || recipe.length === 0 || input.matches(":focus")) return;
-    const body = coordinatesIn(view, pointOf(view, names, recipe), BODY);
-    input.value = toHex(body.map((x) => mappingOf(blend).back(x) * Math.PI));
+    const body = state.asked?.set[BODY] ?? presentBody(state, names);
+    input.classList.toggle("unknown", body === null);
+    if (typeof body === "string" && !input.matches(":focus")) input.value = body;
   });
   return element;
+}
+
+/** The body colour of what is shown; null where it is not known. */
+function presentBody(state: State, names: readonly string[]): string | null {
+  const { view, recipe, blend, numbers } = state;
+  if (isMeasured(state)) return numbers?.body ?? null;
+  const mixing = mixingOf(state);
+  const isOfSpace = mixing.blend === blend && bodyScale(mixing) === null;
+  if (view === null || recipe.length === 0 || !isOfSpace) return null;
+  const body = coordinatesIn(view, pointOf(view, names, recipe), TITLE);
+  // A matte surface of reflectance x has x / pi in 1/sr.
+  return body.length ? toHex(body.map((x) => unmapped(blend, x) * Math.PI)) : null;
+}
+
+/** Asked and got, how far apart they are, and at what price. */
+function answer({ store, actions }: Context): HTMLElement {
+  const [asked, got] = [swatch("asked"), swatch("got")];
+  const difference = el("span.quiet", { title: "Of the two, in CIEDE2000: below 1 hardly anybody sees it" });
+  const keep = el("input", { type: "checkbox", name: "keep", onchange: () => actions.loosen(!keep.checked) });
+  const outcome = el("p.note", { role: "status" });
+  const letGo = iconButton("close", "Let the body colour go", () => actions.ask(BODY, null));
+  const element = el(
+    "div.answer",
+    el("div.line", asked.element, got.element, difference, letGo),
+    el("label.line", { title: KEEP }, keep, "keep the highlight"),
+    outcome,
+  );
+  store.watch(["asked", "numbers", "counting"], (state) => {
+    const wanted = state.asked?.set[BODY];
+    element.hidden = typeof wanted !== "string";
+    if (typeof wanted !== "string") return;
+    asked.show(wanted);
+    element.classList.toggle("behind", state.counting);
+    keep.checked = !state.asked!.loose;
+    const { numbers } = state;
+    // Until it has come, the one before is shown.
+    if (numbers === null || numbers.difference === null) return;
+    got.show(numbers.body);
+    difference.textContent = `ΔE ${numbers.difference.toFixed(1)}`;
+    outcome.textContent = state.counting ? "Finding it …" : inWords(state.asked!, numbers);
+  });
+  return element;
+}
+
+function swatch(name: string) {
+  const [colour, value] = [el("i"), el("span")];
+  const show = (hex: string) => {
+    colour.style.background = hex;
+    value.textContent = hex;
+  };
+  return { element: el("span.line.swatch", colour, `${name} `, value), show };
+}
+
+/** Which material it is, and what of the highlight went with the colour. */
+function inWords({ set, loose }: Asked, numbers: FoundView): string {
+  const isHeld = !loose && !HIGHLIGHT.some((name) => name in set);
+  const lost = givenUp(numbers);
+  const went = lost && (loose ? `The highlight was let go: ${lost}.` : `Given up: ${lost}.`);
+  if (numbers.difference! > UNSEEN) return `No mix has it: this is the nearest. ${went}`;
+  if (bodyScale(numbers.recipe))
+    return `No mix has it and keeps the highlight: the body alone is scaled. ${went}`;
+  return went || (isHeld ? "A mix has it, and keeps the highlight." : "A mix has it.");
 }

@@ -2,8 +2,7 @@
 
 import type { Context } from "../../context";
 import { download, el } from "../../dom";
-import { toDocument } from "../../recipe";
-import { blendOf } from "../../shown";
+import { shownDocument } from "../../shown";
 import { materialName } from "../../title";
 
 interface Format {
@@ -42,7 +41,7 @@ export function exports(context: Context): HTMLElement {
   const files = offered.filter((format) => !isScene(format));
   const tables = files.map((format, i) => fileButton(context, format, i === 0, note));
   const json = button("Recipe", "The weights, as `halfway mix` reads them", () => {
-    const text = `${JSON.stringify(recipeIn(context), null, 1)}\n`;
+    const text = `${JSON.stringify(shownDocument(store.get()), null, 1)}\n`;
     download(new Blob([text], { type: "application/json" }), `${materialName(store.get())}.json`);
   });
   const controls = [...tables, json, ...sceneChoice(context, offered.filter(isScene), note)];
@@ -97,7 +96,7 @@ async function take(
   control.disabled = true;
   note.textContent = `${name}: being written …`;
   try {
-    const { file, summary } = await client.exported(format, recipeIn(context));
+    const { file, summary } = await client.exported(format, shownDocument(store.get()));
     download(file, name);
     note.textContent = summary ? `${name}: ${summary}` : "";
     actions.say("recipe", "export", null);
@@ -110,9 +109,4 @@ async function take(
 
 function button(text: string, title: string, onclick: () => void): HTMLButtonElement {
   return el("button.button", { type: "button", title, onclick }, text);
-}
-
-function recipeIn({ store }: Context) {
-  const state = store.get();
-  return toDocument(state.library.name, state.recipe, blendOf(state));
 }

@@ -1,7 +1,7 @@
 // What instruments would read off the material, as sliders: a number that is moved, or written, is asked for until it is let go.
 
 import type { AttributeView, FoundView } from "../../api/schema";
-import { type Asked, inDigits, LABELS, missed, sliderOf } from "../../asked";
+import { type Asked, BODY, givenUp, inDigits, LABELS, missed, sliderOf, written } from "../../asked";
 import type { Context } from "../../context";
 import { el, iconButton } from "../../dom";
 import { SLIDERS } from "../../measuring";
@@ -22,16 +22,23 @@ export function numberSliders(context: Context): HTMLElement {
     const names = asked && numbers ? missed(asked.set, numbers.attributes, attributes ?? []) : [];
     note.classList.toggle("problem", !counting && names.length > 0);
     if (counting) note.textContent = asked ? "Finding it …" : "";
-    else if (names.length === 0) note.textContent = "";
-    else note.textContent = `No mix has all of these: ${inWords(names, asked!, numbers!)}.`;
+    else if (names.length > 0)
+      note.textContent = `No mix has all of these: ${inWords(names, asked!, numbers!)}.`;
+    else note.textContent = asked && numbers ? priceOf(asked, numbers) : "";
   });
   return element;
+}
+
+/** What else had to change; beside a body colour that is said there. */
+function priceOf({ set }: Asked, numbers: FoundView): string {
+  const lost = givenUp(numbers);
+  return lost && !(BODY in set) ? `Given up: ${lost}.` : "";
 }
 
 function inWords(names: readonly string[], { set }: Asked, { attributes }: FoundView): string {
   const one = (name: string) => {
     const has = attributes[name];
-    return `${LABELS[name] ?? name} ${typeof has === "number" ? inDigits(has) : "none"}, not ${inDigits(set[name]!)}`;
+    return `${LABELS[name] ?? name} ${typeof has === "number" ? inDigits(has) : "none"}, not ${written(set[name]!)}`;
   };
   return names.map(one).join(", ");
 }
@@ -69,7 +76,7 @@ function dial({ store, actions }: Context, { name, label, unit, values }: Attrib
     value,
     release,
   );
-  store.watch(["asked", "numbers"], ({ asked, numbers }) => {
+  store.watch(["asked", "numbers", "counting"], ({ asked, numbers, counting }) => {
     const wanted = asked?.set[name];
     const has = numbers?.attributes[name];
     row.dataset.asked = String(wanted !== undefined);
@@ -80,7 +87,8 @@ function dial({ store, actions }: Context, { name, label, unit, values }: Attrib
     slider.value = String(isKnown ? toShare(shown) : 0);
     if (!value.matches(":focus") || wanted !== undefined) value.value = isKnown ? inDigits(shown) : "";
     const ends = numbers?.ranges[name];
-    // While it moves, the ends are those of before.
+    // While it moves, the ends are those of before; where no mix has the others, it goes nowhere.
+    reach.hidden = !ends && !counting;
     if (ends) {
       reach.style.left = `${100 * toShare(ends[0])}%`;
       reach.style.right = `${100 * (1 - toShare(ends[1]))}%`;

@@ -1,19 +1,28 @@
 // The recipe: what the material is made of, and taking it home.
 
+import { bodyScale } from "../../blend";
 import type { Context } from "../../context";
 import { el, segments } from "../../dom";
 import { CHANNELS, type Ingredient, meanWeight } from "../../recipe";
+import { mixingOf } from "../../shown";
 import { ASIDES } from "../../state";
 import { notices } from "../notices";
 import { bodyColour } from "./body";
 import { exports } from "./exports";
 import { numberSliders } from "./numbers";
 
+const COLOURS = ["red", "green", "blue"];
+
 export function recipePanel(context: Context): HTMLElement {
   const list = el("ol", { tabindex: 0, "aria-label": "Materials" });
   const note = el("p.cut.note");
   const rows = new Map<string, HTMLLIElement>();
-  context.store.watch(["recipe"], ({ recipe }) => {
+  const body = el("p.note.scaled");
+  context.store.watch(["recipe"], (state) => {
+    const { recipe } = state;
+    const scale = bodyScale(mixingOf(state));
+    body.hidden = scale === null;
+    body.textContent = scale && `Its body alone: ${inWords(scale)}`;
     const ordered = [...recipe].sort((a, b) => meanWeight(b) - meanWeight(a));
     const items = ordered.map((ingredient) => {
       const row = rows.get(ingredient.name) ?? newRow(context, ingredient.name);
@@ -24,7 +33,7 @@ export function recipePanel(context: Context): HTMLElement {
     if (items.some((item, i) => list.children[i] !== item) || list.children.length !== items.length)
       list.replaceChildren(...items);
     const many = recipe.length ? `${recipe.length} materials` : "";
-    note.textContent = recipe.length === 1 ? "one measured material" : many;
+    note.textContent = recipe.length === 1 && !scale ? "one measured material" : many;
   });
   const [numbers, aside] = [numberSliders(context), asideChoice(context)];
   context.store.watch(["aside"], ({ aside }) => {
@@ -38,10 +47,16 @@ export function recipePanel(context: Context): HTMLElement {
     el("div.line.titled", el("h2", "Recipe"), note, aside),
     list,
     numbers,
+    body,
     bodyColour(context),
     exports(context),
     notices(context, "recipe"),
   );
+}
+
+/** What the body is multiplied by. */
+function inWords(scale: readonly number[]): string {
+  return scale.map((factor, c) => `${COLOURS[c]} × ${factor.toPrecision(2)}`).join(", ");
 }
 
 /** Its weights, or its numbers; those take somebody who finds recipes by them. */

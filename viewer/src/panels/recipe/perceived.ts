@@ -3,9 +3,8 @@
 import type { PerceivedView, PerceptionView, RecipeDocument } from "../../api/schema";
 import type { Context } from "../../context";
 import { el } from "../../dom";
-import { toDocument } from "../../recipe";
 import { Refined } from "../../refined";
-import { blendOf } from "../../shown";
+import { shownDocument } from "../../shown";
 
 const WHO = "Perceived, 0 to 1";
 const SOURCE =
@@ -31,7 +30,7 @@ export function perceivedNumbers({ client, store, actions, signal }: Context): H
   const follow = () => {
     const state = store.get();
     const isWanted = element.open && state.recipe.length > 0;
-    asked.want(isWanted ? toDocument(state.library.name, state.recipe, blendOf(state)) : null);
+    asked.want(isWanted ? shownDocument(state) : null);
   };
   element.addEventListener("toggle", follow);
   store.watch(["recipe", "route", "atPoint", "held"], follow);

@@ -97,7 +97,7 @@ function drawPictures(
   const last = Math.max(1, Math.floor((width - THUMB) / (side * PITCH)));
   for (let i = 0; i <= last; i++) {
     const t = i / last;
-    cell.getContext("2d")!.putImageData(thumbnails.picture(recipeAt(route, t), route.blend, again), 0, 0);
+    cell.getContext("2d")!.putImageData(thumbnails.picture(recipeAt(route, t), route, again), 0, 0);
     pen.drawImage(cell, toX(t, width) - side / 2, top, side, side);
   }
 }

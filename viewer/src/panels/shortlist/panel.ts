@@ -4,9 +4,8 @@ import { asComparedKept } from "../../compared";
 import type { Context } from "../../context";
 import { el, iconButton, popover } from "../../dom";
 import { toHash } from "../../permalink";
-import { toDocument } from "../../recipe";
 import { type Kept, keptOf, missingIn, recipeOf } from "../../shortlist";
-import { blendOf } from "../../shown";
+import { shownDocument } from "../../shown";
 import { shortName } from "../../title";
 import { takeAll } from "./take";
 
@@ -50,9 +49,8 @@ export function shortlistPanel(context: Context): HTMLElement {
 /** Keep what is shown, where it was. */
 export function keepShown({ store, actions }: Context): void {
   const state = store.get();
-  const { library, recipe } = state;
-  if (recipe.length === 0) return;
-  actions.keep(keptOf(shortName(state), toDocument(library.name, recipe, blendOf(state)), toHash(state)));
+  if (state.recipe.length === 0) return;
+  actions.keep(keptOf(shortName(state), shownDocument(state), toHash(state)));
 }
 
 function item(context: Context, kept: Kept): HTMLElement {
@@ -60,7 +58,7 @@ function item(context: Context, kept: Kept): HTMLElement {
   const { held, compare, pictured } = store.get();
   const picture = el("canvas.sphere", { width: thumbnails.size, height: thumbnails.size });
   const draw = () =>
-    picture.getContext("2d")!.putImageData(thumbnails.picture(recipeOf(kept), kept.recipe.blend, draw), 0, 0);
+    picture.getContext("2d")!.putImageData(thumbnails.picture(recipeOf(kept), kept.recipe, draw), 0, 0);
   if (pictured) draw();
   const missing = missingIn(kept.recipe, context.names);
   const needs = `It needs ${missing.join(", ")}: drop the file here again.`;

@@ -4,13 +4,13 @@ import type { Context } from "../../context";
 import { dropdown, el } from "../../dom";
 import { COLOURS, type Facets, GLOSSES, inOrder, KINDS, ORDERS, type Order } from "../../materials";
 import { materialAsGhost } from "../../pointing";
-import { only } from "../../recipe";
-import { blendOf } from "../../shown";
+import { type Shown, shownDocument } from "../../shown";
+import type { State } from "../../state";
 
 const KEYS = ["ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown"];
 
 export function materialGrid(context: Context): HTMLElement {
-  const { store, thumbnails, names } = context;
+  const { store, names } = context;
   const items = new Map(names.map((name) => [name, item(context, name)]));
   const grid = el(
     "div.grid",
@@ -18,13 +18,14 @@ export function materialGrid(context: Context): HTMLElement {
     ...items.values(),
   );
   paintSeen(context, grid);
-  const arrange = () => {
-    const { described, order, ...state } = store.get();
-    const distance = (name: string) => thumbnails.distance(only(name), state.recipe, blendOf(state));
+  const arrange = async ({ described, order, ...state }: State) => {
+    const distances = order === "likeness" ? await likeness(context, state) : [];
+    if (store.get().order !== order) return;
+    const distance = (name: string) => distances[names.indexOf(name)] ?? 0;
     grid.append(...inOrder(described, order, distance).map(({ name }) => items.get(name)!));
   };
   // What is looked at stays where it is: likeness is to what was shown when it was asked for.
-  store.watch(["described", "order"], arrange);
+  store.watch(["described", "order"], (state) => void arrange(state));
   store.watch(["stops", "matches"], ({ stops, matches }) => {
     const hits = matches && new Set(matches);
     for (const [name, each] of items) {
@@ -33,6 +34,18 @@ export function materialGrid(context: Context): HTMLElement {
     }
   });
   return grid;
+}
+
+/** How different people find each material from what is shown; what failed is said. */
+async function likeness({ client, actions }: Context, state: Shown): Promise<readonly number[]> {
+  try {
+    const { distances } = await client.alike(shownDocument(state));
+    actions.say("space", "likeness", null);
+    return distances;
+  } catch (error) {
+    actions.say("space", "likeness", (error as Error).message);
+    return [];
+  }
 }
 
 function item({ store, actions }: Context, name: string): HTMLElement {

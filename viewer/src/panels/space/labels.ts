@@ -3,6 +3,7 @@
 import type { Vector3 } from "three";
 
 import { el } from "../../dom";
+import { clamp } from "../../numbers";
 import type { Cloud } from "../../render/cloud";
 import type { CoordinateMap } from "../../render/maps";
 import { short } from "../brdf/plot";
@@ -40,6 +41,9 @@ export class Labels {
   /** Where a person pointed, when no mix is there. */
   private readonly asked = el("div.asked");
 
+  /** Where names stand. */
+  private taken: readonly Box[] = [];
+
   constructor(move: (x: number, y: number) => void) {
     this.here = el("button.here", {
       type: "button",
@@ -62,18 +66,20 @@ export class Labels {
 
   /** Values along the axes of a map, and at the last one what the axis is called. */
   drawTicks(cloud: Cloud, axes: ReturnType<CoordinateMap["axes"]>): void {
-    const marks = axes.flatMap(({ name, ticks }) =>
-      ticks.map(({ value, at }, i) => {
-        const { x, y } = cloud.project(at);
-        const element = el(
-          "span.tick",
-          i === ticks.length - 1 ? `${inWords(name)} ${short(value)}` : short(value),
-        );
-        element.style.transform = `translate(${x}px, ${y}px) translate(-50%, -50%)`;
-        return element;
-      }),
+    const ticks = axes.flatMap(({ name, ticks }) =>
+      ticks.map(({ value, at }, i) => ({
+        at: cloud.project(at),
+        element: el("span.tick", i === ticks.length - 1 ? `${inWords(name)} ${short(value)}` : short(value)),
+      })),
     );
-    this.ticks.replaceChildren(...marks);
+    this.ticks.replaceChildren(...ticks.map(({ element }) => element));
+    const boxes = ticks.map(({ at: { x, y }, element: { offsetWidth: width, offsetHeight: height } }) => {
+      return { x, y, width, height };
+    });
+    const { clientWidth, clientHeight } = this.element;
+    apart(boxes, this.taken, clientWidth, clientHeight).forEach(({ x, y }, i) => {
+      ticks[i]!.element.style.transform = `translate(${x}px, ${y}px) translate(-50%, -50%)`;
+    });
   }
 
   draw(cloud: Cloud, width: number, named: readonly Named[], { here, asked, isFree }: Marks): void {
@@ -85,9 +91,12 @@ export class Labels {
       const { name, isHovered } = named[i]!;
       const label = el(isHovered ? "div.tag.cut.label.hovered" : "div.tag.cut.label", name);
       label.style.transform = `translate(${x}px, ${y}px) translate(${side === "left" ? "-100%" : "0"}, -50%)`;
-      return label;
+      return { x, y, side, element: label };
     });
-    this.names.replaceChildren(...labels);
+    this.names.replaceChildren(...labels.map(({ element }) => element));
+    this.taken = labels.map(({ x, y, side, element: { offsetWidth: width, offsetHeight: height } }) => {
+      return { x: side === "left" ? x - width / 2 : x + width / 2, y, width, height };
+    });
     mark(this.here, cloud, here);
     mark(this.asked, cloud, asked);
     this.here.disabled = !isFree;
@@ -116,6 +125,39 @@ export interface LabelPosition {
   /** The middle of its height. */
   readonly y: number;
   readonly side: "left" | "right";
+}
+
+/** A text around its middle, in CSS pixels. */
+export interface Box {
+  readonly x: number;
+  readonly y: number;
+  readonly width: number;
+  readonly height: number;
+}
+
+/** The same boxes inside the panel, each up or down from where it was until it covers none before it, and none that stays. */
+export function apart(
+  boxes: readonly Box[],
+  staying: readonly Box[],
+  width: number,
+  height: number,
+): readonly Box[] {
+  const free = [...staying];
+  for (const box of boxes) {
+    const inside = (y: number): Box => ({
+      ...box,
+      x: clamp(box.x, box.width / 2, Math.max(width - box.width / 2, box.width / 2)),
+      y: clamp(y, box.height / 2, Math.max(height - box.height / 2, box.height / 2)),
+    });
+    const steps = Array.from({ length: 4 * boxes.length }, (_, i) => (i * box.height) / 2);
+    const tried = steps.flatMap((step) => [inside(box.y - step), inside(box.y + step)]);
+    free.push(tried.find((each) => !free.some((other) => covers(each, other))) ?? inside(box.y));
+  }
+  return free.slice(staying.length);
+}
+
+function covers(a: Box, b: Box): boolean {
+  return 2 * Math.abs(a.x - b.x) < a.width + b.width && 2 * Math.abs(a.y - b.y) < a.height + b.height;
 }
 
 /** About what a name takes. */

@@ -2,7 +2,7 @@
 
 import type { Vector3 } from "three";
 import type { EmbeddingView } from "../../api/schema";
-import { LINEAR } from "../../blend";
+import { bodyScale, LINEAR } from "../../blend";
 import type { Context } from "../../context";
 import { coordinatesIn } from "../../coordinates";
 import { onResize, segments, style } from "../../dom";
@@ -14,7 +14,7 @@ import { Appearance } from "../../render/appearance";
 import type { Cloud } from "../../render/cloud";
 import { CoordinateMap, type SpaceMap } from "../../render/maps";
 import { recipeAt } from "../../route";
-import { blendOf, isAway } from "../../shown";
+import { isAway, mixingOf } from "../../shown";
 import { GRID, NUMBERS, type State } from "../../state";
 import { tintsOf } from "../../tint";
 import { turnOnKeys } from "../material/orbit";
@@ -122,11 +122,14 @@ export class SpacePicture {
   }
 
   private describe(): void {
-    const { atPoint } = this.context.store.get();
+    const state = this.context.store.get();
+    const { atPoint } = state;
     const axes = this.embedding?.axes.slice(0, 3);
     // The axes are written where they are chosen.
     this.beside.note.hidden = [GRID, NUMBERS].includes(this.chosen);
-    if (atPoint !== null && !atPoint.inside)
+    if (this.embedding && bodyScale(mixingOf(state)))
+      this.beside.note.textContent = "its body is scaled: this space has no place for it";
+    else if (atPoint !== null && !atPoint.inside)
       this.beside.note.textContent = "no mix is at the ring: the dot is one nearby";
     else
       this.beside.note.textContent = axes
@@ -151,7 +154,7 @@ export class SpacePicture {
     const again = () => {
       if (this.cloud.map === map && this.context.store.get().route === route) this.traceRoute();
     };
-    const points = ts.map((t) => map.pointOf(recipeAt(route, t), route.blend, again));
+    const points = ts.map((t) => map.pointOf(recipeAt(route, t), route, again));
     this.trace = { ts, points };
     const crossings = route.crossings.map((t) => along(this.trace, t));
     this.cloud.setRoute(points, crossings);
@@ -187,7 +190,9 @@ export class SpacePicture {
     }
     const isOnLine = map === this.appearance && this.trace.ts.length > 0 && !isAway(state);
     if (isOnLine) return along(this.trace, state.t);
-    return map.pointOf(state.recipe, blendOf(state), () => this.putRecipe());
+    // The coordinates of a scaled body are not those of its materials, mixed.
+    if (map instanceof CoordinateMap && bodyScale(mixingOf(state))) return null;
+    return map.pointOf(state.recipe, mixingOf(state), () => this.putRecipe());
   }
 
   /** Where a person pointed, on this map; null when a mix is there. */
