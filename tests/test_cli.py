@@ -109,6 +109,15 @@ def test_route_writes_recipes_and_tables(run, lib, tmp_path):
     assert "0 tables written, 5 kept" in run(*words)[2]
 
 
+def test_a_route_may_begin_at_a_recipe(run, lib, tmp_path):
+    (tmp_path / "found.json").write_text('{"weights": {"material-0": 0.5, "material-1": 0.5}}')
+    words = ("route", lib, "found.json", "material-4", "-n", "3", "--blend", "linear", "--json")
+    route = json.loads(run(*words)[1])
+    assert route["stops"] == ["mix of 2", "material-4"]
+    assert route["recipes"][0]["weights"] == {"material-0": 0.5, "material-1": 0.5}
+    assert "Take --blend linear" in run(*words[:6], "--blend", "lobes")[2]
+
+
 def test_route_prints_json_alone_on_stdout(run, lib, tmp_path):
     code, out, _ = run(
         "route",

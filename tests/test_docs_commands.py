@@ -33,6 +33,7 @@ NOT_RUN = {
     r"^halfway .*(s3://|gs://|--scheduler|tcp://)": "needs a cluster or a bucket",
     r"^halfway .*(FILE|FOLDER|LIB|DIR|NAME|IN|OUT|WHAT|URL)\b": "names what the reader has",
     r"^halfway .*(--env|--mesh) ": "takes a file that the reader has",
+    r"^halfway find --like (sphere|photo)\.png": "takes a picture that the reader has (tested in test_environment)",
     r"^halfway .*both\.brdflib": "takes gigabytes (tested in test_anisotropy)",
     r"^halfway .*fabric\.bin": "needs a measurement (tested in test_goniometric)",
     r"^halfway fit ": "takes a minute and more (tested in test_fit and test_export_fits)",

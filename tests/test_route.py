@@ -67,6 +67,35 @@ def test_several_stops_are_reached_in_turn(space):
         assert route.recipe(t).to_json()["weights"] == {name: 1.0}
 
 
+@pytest.mark.parametrize("name", ["anchored", "paper", "linear"])
+def test_from_a_recipe_a_route_goes_straight_and_ends_exactly(small_library, name):
+    """A mean of legs, each of which is straight in the coordinates."""
+    fitted = make_space(name, small_library, blend="linear")
+    recipe = Recipe.of(small_library, {"material-0": 0.5, "material-3": 0.3, "material-5": 0.2})
+    route = Route.through(fitted, [recipe, "material-3", recipe])
+    at_start, at_stop = recipe.dense(fitted.names), np.eye(len(fitted.names))[[3] * 3]
+    assert_allclose(route.at(np.array([0, 0.5, 1])).swapaxes(0, 1), [at_start, at_stop, at_start])
+    t = np.linspace(0, 0.5, 7)
+    weights = route.at(t)
+    assert (weights >= 0).all()
+    for channel, of_channel in enumerate(weights):
+        chart = fitted.charts[channel % len(fitted.charts)] if fitted.charts else None
+        points = chart.coordinates.points if chart else np.eye(len(fitted.names))
+        ends = (of_channel @ points)[[0, -1]]
+        straight = ends[0] + 2 * t[:, None] * (ends[1] - ends[0])
+        assert_allclose(of_channel @ points, straight, atol=1e-7 * np.abs(points).max())
+
+
+def test_a_stop_that_is_mixed_in_another_way_is_refused(space):
+    names = {"material-0": 0.5, "material-3": 0.5}
+    root = Recipe.of(space.library, names, "root")
+    with pytest.raises(SpaceError, match=r"mix of 2 is mixed by the blend 'root'.*--blend root"):
+        Route.through(space, [root, "material-1"])
+    scaled = replace(Recipe.of(space.library, names), body_scale=(0.5, 0.5, 0.5))
+    with pytest.raises(SpaceError, match="mix of 2 has its body scaled"):
+        Route.through(space, ["material-1", scaled])
+
+
 def test_linear_is_the_two_ends_in_proportion(small_library):
     linear = LinearSpace.of(small_library)
     recipe = Route.through(linear, ["material-4", "material-6"]).recipe(0.25)

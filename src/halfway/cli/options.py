@@ -128,7 +128,7 @@ Stops = Annotated[
     list[str],
     typer.Argument(
         metavar="[LIB] A B [C...]",
-        help="Two or more materials, by name.",
+        help="Two or more materials, by name, or recipes in files.",
         autocompletion=complete_names,
     ),
 ]

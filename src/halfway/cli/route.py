@@ -1,6 +1,7 @@
 """``halfway route``: recipes, and tables, on the way from one material to another."""
 
 import json
+import re
 from collections.abc import Callable
 from functools import partial
 from typing import TYPE_CHECKING
@@ -11,6 +12,7 @@ from .options import Pace, SpaceName, TableFormat
 
 if TYPE_CHECKING:
     from ..library import Library
+    from ..recipes import Recipe
     from ..space import Route
 
 
@@ -39,11 +41,13 @@ def route(
     halfway route teflon gold-paint chrome -n 101
     halfway route cherry-235 tungsten-carbide --space paper --pace uniform --t 0.0001:1:0.0001
     halfway route cherry-235 --along gloss60=2:20 -n 9
+    halfway route found.json teflon --blend linear                      from a recipe, such as halfway find writes
     """
     import halfway
     from halfway.export import write_route
     from halfway.locations import to_location
     from halfway.recipes import split_library
+    from halfway.space import SPACES
 
     from .arguments import parse_t, require_length
 
@@ -54,8 +58,9 @@ def route(
     if along:
         stops, make = _along(library, stops, along, n, blend)
     else:
-        _refuse_mistakes(library, stops, n, wanted)
-        make = partial(halfway.route, library, *stops, space=space, pace=pace, blend=blend)
+        through = [_stop(library, address, word) for word in stops]
+        _refuse_mistakes(library, through, n, wanted, blend or SPACES[space].usual_blend)
+        make = partial(halfway.route, library, *through, space=space, pace=pace, blend=blend)
         make = partial(make, n_components=components, detour=detour)
     with working(scheduler) as work:
         way = make(work=work)
@@ -64,20 +69,33 @@ def route(
             print(json.dumps(way.to_json(ts)))
         if output is None and as_json:
             return
-        folder = to_location(output or "-to-".join(stops))
+        folder = to_location(output or "-to-".join(word.removesuffix(".json") for word in stops))
         written = write_route(folder, way, ts, library, format=format, work=work)
     tables = f", {written.n_written} tables written" if format != "none" else ""
     kept = f", {written.n_kept} kept" if written.n_kept else ""
     say(f"{folder}: {len(ts)} recipes{tables}{kept}. Next: halfway render {folder} -o route.png")
 
 
+def _stop(library: "Library", address: str, word: str) -> "str | Recipe":
+    """The material of a name, or the recipe in a file."""
+    from halfway.recipes import open_recipe
+
+    if word in library.names or not re.search(r"\.json(:\d+)?$", word):
+        return word
+    return open_recipe([address, word])[1]
+
+
 def _refuse_mistakes(
-    library: "Library", stops: list[str], n: int, wanted: list[float] | None
+    library: "Library",
+    stops: "list[str | Recipe]",
+    n: int,
+    wanted: list[float] | None,
+    blend: str,
 ) -> None:
     """A mistake is told before a space is fitted."""
     import halfway
 
-    straight = halfway.route(library, *stops, space="linear", pace="uniform")
+    straight = halfway.route(library, *stops, space="linear", pace="uniform", blend=blend)
     checked = wanted or straight.steps(n)
     straight.recipes([min(checked), max(checked)])
 

@@ -8,7 +8,7 @@ from ..errors import SpaceError
 from ..library import Library, open_library
 from ..look import Looks
 from ..people import Impressions
-from ..recipes import Blend
+from ..recipes import Blend, Recipe
 from ..tasks import HERE, Work
 from .anchored import DETOUR, AnchoredSpace
 from .pace import by_people, perceptual
@@ -51,10 +51,7 @@ def make_space(
     RecipeError
         When there is no such blend.
     """
-    if name not in SPACES:
-        raise SpaceError(f"there is no space {name!r}: expected one of {', '.join(SPACES)}.")
-    kind = SPACES[name]
-    mixed = Blend(blend or kind.usual_blend)
+    mixed = _blend(name, blend)
     match name:
         case "anchored":
             return AnchoredSpace.fit(
@@ -69,7 +66,7 @@ def make_space(
 
 def route(
     library: Library | str,
-    *stops: str,
+    *stops: str | Recipe,
     space: Space | str = "anchored",
     blend: Blend | str | None = None,
     pace: str = "perceptual",
@@ -83,8 +80,8 @@ def route(
     ----------
     library : Library or str
         Open, or as `open_library` takes it.
-    stops : str
-        Names of materials, in turn.
+    stops : str or Recipe
+        Names of materials, in turn; or recipes of the library, mixed as the route is, such as `halfway.find` finds.
     space : Space or str
         ``anchored``, straight in body colour and through real materials; ``paper``, the paper's; ``linear``, the ends alone;
         or one that was made.
@@ -113,10 +110,11 @@ def route(
     if pace not in PACES:
         raise SpaceError(f"there is no pace {pace!r}: expected {', '.join(PACES)}.")
     # A mistake is told before a space is fitted.
-    Blend(blend or Blend.LINEAR)
+    mixed = space.blend if isinstance(space, Space) else _blend(space, blend)
     for stop in stops:
-        opened.index(stop)
-    Route.through(LinearSpace.of(opened), stops)
+        if isinstance(stop, str):
+            opened.index(stop)
+    Route.through(LinearSpace.of(opened, blend=mixed), stops)
     fit = partial(make_space, n_components=n_components, detour=detour, blend=blend, work=work)
     fitted = fit(space, opened) if isinstance(space, str) else space
     way = Route.through(fitted, stops)
@@ -127,3 +125,10 @@ def route(
             return by_people(way, Impressions.fit(opened, work=work))
         case _:
             return way
+
+
+def _blend(name: str, blend: Blend | str | None) -> Blend:
+    """How the recipes of a space are mixed."""
+    if name not in SPACES:
+        raise SpaceError(f"there is no space {name!r}: expected one of {', '.join(SPACES)}.")
+    return Blend(blend or SPACES[name].usual_blend)

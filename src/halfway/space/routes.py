@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 from jaxtyping import Float64, Int
 
+from .._types import Weights
 from ..errors import SpaceError
 from ..library import LibraryRef
 from ..recipes import Blend, Recipe
@@ -49,21 +50,22 @@ class Route:
     """How its recipes are mixed."""
 
     @classmethod
-    def through(cls, space: Space, stops: Sequence[str]) -> "Route":
-        """The route through materials named ``stops``, at the paper's uniform pace.
+    def through(cls, space: Space, stops: Sequence[str | Recipe]) -> "Route":
+        """The route through materials named ``stops``, or recipes of theirs, at the paper's uniform pace.
 
         Raises
         ------
         SpaceError
-            With fewer than two stops, a stop that follows itself, or one that the library does not have.
+            With fewer than two stops, a stop that follows itself, one that the library does not have, or that is mixed in another
+            way than the route.
         """
         _check_stops(stops)
-        legs = [space.leg(a, b) for a, b in pairwise(map(space.index, stops))]
+        legs = [space.between(a, b) for a, b in pairwise(_weights(space, s) for s in stops)]
         return cls(
             space.library,
             space.name,
             "uniform",
-            tuple(stops),
+            tuple(map(_label, stops)),
             space.names,
             Way.chain(legs),
             # The very numbers at which `Way.chain` puts its knots.
@@ -148,11 +150,34 @@ def _rounded(borders: Float64[np.ndarray, " n_stops"]) -> Float64[np.ndarray, " 
     return whole
 
 
-def _check_stops(stops: Sequence[str]) -> None:
+def _weights(space: Space, stop: str | Recipe) -> Weights:
+    if isinstance(stop, str):
+        return Recipe.of(space.library, {space.names[space.index(stop)]: 1.0}).dense(space.names)
+    if stop.is_recoloured:
+        raise SpaceError(
+            f"{_label(stop)} has its body scaled, which a route cannot carry: expected weights alone."
+        )
+    if len(stop.names) > 1 and stop.blend is not space.blend:
+        raise SpaceError(
+            f"{_label(stop)} is mixed by the blend {str(stop.blend)!r}, and the route by {str(space.blend)!r}: expected the same. "
+            f"Take --blend {stop.blend}."
+        )
+    return stop.dense(space.names)
+
+
+def _label(stop: str | Recipe) -> str:
+    if isinstance(stop, str):
+        return stop
+    return stop.names[0] if len(stop.names) == 1 else f"mix of {len(stop.names)}"
+
+
+def _check_stops(stops: Sequence[str | Recipe]) -> None:
     if len(stops) < 2:
         raise SpaceError(
             f"a route with {len(stops)} stop goes nowhere: name at least two materials."
         )
     for stop, following in pairwise(stops):
         if stop == following:
-            raise SpaceError(f"{stop} follows itself on this route: name each stop once in a row.")
+            raise SpaceError(
+                f"{_label(stop)} follows itself on this route: name each stop once in a row."
+            )

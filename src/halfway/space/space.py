@@ -8,11 +8,13 @@ from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from difflib import get_close_matches
+from itertools import product
 from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 from jaxtyping import Float64
 
+from .._types import Weights
 from ..components import Newcomer
 from ..errors import OutsideHullError, SpaceError
 from ..library import LibraryRef
@@ -57,6 +59,18 @@ class Space(ABC):
     @abstractmethod
     def leg(self, start: int, stop: int) -> Way:
         """The weights from material ``start`` to material ``stop``, for each channel."""
+
+    def between(self, start: Weights, stop: Weights) -> Way:
+        """The weights from one mix to another: the mean of the legs between their materials.
+
+        It begins and ends with the two exactly, and what is linear along each leg is so along their mean.
+        """
+        pairs = list(product(*(np.flatnonzero(w.any(axis=0)).tolist() for w in (start, stop))))
+        legs = [self.leg(i, j) if i != j else self._stay(i) for i, j in pairs]
+        return Way.mean(legs, np.stack([start[:, i] * stop[:, j] for i, j in pairs], axis=1))
+
+    def _stay(self, i: int) -> Way:
+        return Way.of_channels([Way.between(i, i, len(self.names))])
 
     @property
     def coordinates(self) -> tuple[str, ...]:

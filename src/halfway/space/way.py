@@ -51,6 +51,17 @@ class Way:
             np.concatenate([*weights, ways[-1].weights[..., -1:, :]], axis=-2),
         )
 
+    @classmethod
+    def mean(cls, ways: Sequence["Way"], shares: Float64[np.ndarray, "3 n_ways"]) -> "Way":
+        """The weighted mean of ways, with a share of each for each channel, at the knots of all."""
+        if len(ways) == 1:
+            return ways[0]
+        knots = np.unique(np.concatenate([way.knots for way in ways]))
+        weights = sum(
+            share[:, None, None] * way.at(knots) for share, way in zip(shares.T, ways, strict=True)
+        )
+        return cls(knots, np.asarray(weights))
+
     def at(self, t: Float64[np.ndarray, " n"]) -> Float64[np.ndarray, "*channels n N"]:
         """Weights at each ``t``, exact on the knots."""
         piece = np.clip(np.searchsorted(self.knots, t, side="right") - 1, 0, len(self.knots) - 2)
