@@ -186,7 +186,10 @@ def test_what_does_not_stand_out_is_body():
 def test_what_falls_slowly_beyond_a_highlight_is_body():
     """A coat that reflects more towards grazing leaves less to the base: that is no lobe to be stretched."""
     table = tabulate(plastic(0.02), FINE)
-    lobes, gloss_there = gloss.to_lobes(table.values, FINE), gloss.Gloss.of(table.values, FINE).gloss
+    lobes, gloss_there = (
+        gloss.to_lobes(table.values, FINE),
+        gloss.Gloss.of(table.values, FINE).gloss,
+    )
     beyond = np.degrees(FINE.axis("theta_h").centres()) > 31
     falls = np.nan_to_num(lobes[:, beyond][:, 0] - lobes[:, beyond][:, -1])
     assert falls.max() > 0.01
