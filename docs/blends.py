@@ -1,10 +1,11 @@
 """What the page on blends measures and shows: ``python docs/blends.py LIB [WHAT...]``.
 
 LIB is a library of the neural fits (``halfway library build merl_nbrdf.zip -o LIB --grid 90x30x36``), WHAT some of ``left-out
-ladders highlights laws pictures``, or all.
+ladders highlights laws pictures pairs``, or all.
 """
 
 import sys
+from collections.abc import Callable
 from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
@@ -12,14 +13,14 @@ from pathlib import Path
 import numpy as np
 
 from halfway import Pca, open_library
-from halfway.brdf import check
+from halfway.brdf import TabularBrdf, check
 from halfway.cli.console import cache_folder
 from halfway.halfdiff import Grid
 from halfway.judge import Bench, highlight, ladder_errors, ladders, leave_one_out
 from halfway.library import Library, LibraryRef
 from halfway.look import PACING_SCENE, Looks, SphereOperator, body_colours, shown
 from halfway.recipes import Blend, Mixer, Recipe
-from halfway.render import pictures
+from halfway.render import Renderer, pictures
 from halfway.space import AnchoredSpace, Coordinates, LinearSpace, Route, Scores
 from halfway.space.anchored import body_group
 from halfway.tasks import Work
@@ -30,6 +31,27 @@ PAIRS = (
     ("white-fabric", "black-obsidian"),
     ("red-plastic", "gold-metallic-paint2"),
 )
+HARD = (
+    ("polyurethane-foam", "chrome"),
+    ("blue-fabric", "gold-paint"),
+    ("green-fabric", "steel"),
+    ("black-fabric", "white-marble"),
+    ("pink-fabric", "black-phenolic"),
+    ("beige-fabric", "hematite"),
+    ("white-fabric2", "silver-metallic-paint"),
+    ("pink-felt", "yellow-plastic"),
+    ("light-brown-fabric", "tungsten-carbide"),
+    ("blue-metallic-paint", "pearl-paint"),
+    ("two-layer-gold", "teflon"),
+    ("alumina-oxide", "ss440"),
+    ("chrome", "chrome-steel"),
+    ("red-fabric2", "specular-green-phenolic"),
+    ("polyethylene", "nickel"),
+    ("black-soft-plastic", "color-changing-paint3"),
+)
+"""Cloth and rubber to mirrors, two mirrors, coats over coats."""
+N_PAIRS = 50
+SHEETS = Path("pairs")
 N_ROUTES = 500
 N_COLUMNS = 7
 WORK = Work(cache=cache_folder())
@@ -117,18 +139,55 @@ def laws(library: Library) -> None:
 
 def rows(library: Library) -> None:
     """Rows of spheres: each pair, linear above lobes."""
-    scene, mixer = replace(PACING_SCENE, size=112), Mixer(library)
-    operator, mask = SphereOperator.of(scene, library.grid), scene.mask()
-    tiles: list[np.ndarray] = []
-    for stops in PAIRS:
-        for blend in (Blend.LINEAR, Blend.LOBES):
-            for t in np.linspace(0, 1, N_COLUMNS):
-                weights = {name: w for name, w in zip(stops, (1 - t, t), strict=True) if w}
-                table = mixer.mix(Recipe.of(library, weights, blend))
-                tile = np.full((*mask.shape, 3), 0.02, np.float32)
-                tile[mask] = shown(operator.picture(table.values.reshape(3, -1)))
-                tiles.append(tile)
+    mixer, picture = Mixer(library), under_lights(library, 112)
+    tiles = [
+        picture(table)
+        for stops in PAIRS
+        for blend in (Blend.LINEAR, Blend.LOBES)
+        for table in on_the_way(mixer, library, stops, blend)
+    ]
     pictures.write(OUTPUT, pictures.sheet(tiles, columns=N_COLUMNS))
+
+
+def looked_at(library: Library) -> None:
+    """Sheets of fifty pairs in the folder ``pairs``: linear and lobes under three lights, linear and lobes in the studio."""
+    rng = np.random.default_rng(0)
+    drawn = (tuple(rng.choice(library.names, 2, replace=False).tolist()) for _ in range(N_PAIRS))
+    stops = [*PAIRS, *HARD, *drawn][:N_PAIRS]
+    mixer, studio = Mixer(library), Renderer("sphere", size=(96, 96), spp=16, env="studio")
+    lights = under_lights(library, 96)
+    SHEETS.mkdir(exist_ok=True)
+    for i, pair in enumerate(stops):
+        linear, lobes = (on_the_way(mixer, library, pair, b) for b in (Blend.LINEAR, Blend.LOBES))
+        ends = studio.picture(lobes[0]), studio.picture(lobes[-1])
+        mixed = [(1 - t) * ends[0] + t * ends[1] for t in np.linspace(0, 1, N_COLUMNS)]
+        between = (studio.picture(table) for table in lobes[1:-1])
+        tiles = [*map(lights, linear), *map(lights, lobes), *mixed, ends[0], *between, ends[1]]
+        sheet = pictures.sheet(tiles, columns=N_COLUMNS)
+        pictures.write(SHEETS / f"{i:02d}-{'-to-'.join(pair)}.png", sheet)
+
+
+def on_the_way(
+    mixer: Mixer, library: Library, stops: tuple[str, str], blend: Blend
+) -> list[TabularBrdf]:
+    """A pair in seven steps, without other materials."""
+    return [
+        mixer.mix(Recipe.of(library, dict(zip(stops, (1 - t, t), strict=True)), blend))
+        for t in np.linspace(0, 1, N_COLUMNS)
+    ]
+
+
+def under_lights(library: Library, size: int) -> Callable[[TabularBrdf], np.ndarray]:
+    """What makes pictures of a sphere under three lights."""
+    scene = replace(PACING_SCENE, size=size)
+    operator, mask = SphereOperator.of(scene, library.grid), scene.mask()
+
+    def picture(table: TabularBrdf) -> np.ndarray:
+        tile = np.full((*mask.shape, 3), 0.02, np.float32)
+        tile[mask] = shown(operator.picture(table.values.reshape(3, -1)))
+        return tile
+
+    return picture
 
 
 PARTS = {
@@ -137,6 +196,7 @@ PARTS = {
     "highlights": widths,
     "laws": laws,
     "pictures": rows,
+    "pairs": looked_at,
 }
 
 if __name__ == "__main__":

@@ -183,9 +183,37 @@ def test_what_does_not_stand_out_is_body():
     assert (part.width, part.gloss.max()) == (1.0, 0.0)
 
 
+def test_what_falls_slowly_beyond_a_highlight_is_body():
+    """A coat that reflects more towards grazing leaves less to the base: that is no lobe to be stretched."""
+    table = tabulate(plastic(0.02), FINE)
+    lobes, gloss_there = (
+        gloss.to_lobes(table.values, FINE),
+        gloss.Gloss.of(table.values, FINE).gloss,
+    )
+    beyond = np.degrees(FINE.axis("theta_h").centres()) > 31
+    falls = np.nan_to_num(lobes[:, beyond][:, 0] - lobes[:, beyond][:, -1])
+    assert falls.max() > 0.01
+    assert gloss_there[:, beyond].max() == 0
+    assert gloss_there[:, 0].min() > 0
+
+
+def test_the_width_of_a_highlight_is_not_that_of_the_slow_fall_beyond():
+    """A faint highlight is as wide over a body that is level to 31 degrees as it is alone."""
+    theta_h = FINE.axis("theta_h").centres()
+    lobe = 1e-3 * ggx(theta_h, 0.02)
+    body = 0.3 * np.minimum(1, np.cos(theta_h) / np.cos(np.radians(31)))
+
+    def width(profile):
+        values = np.broadcast_to(profile[:, None, None], FINE.shape)[None].repeat(3, 0)
+        return gloss.Gloss.of(np.where(FINE.mask(), values, np.nan).astype("f4"), FINE).width
+
+    assert_allclose(width(lobe + body), width(lobe), rtol=0.1)
+
+
 def test_lobes_come_nearer_to_the_material_halfway():
     """Half of the linear mix's error in the metric log, in the median over rungs of GGX."""
-    for ladder in ladders(Grid.merl(60, 12, 12))[:2]:
+    conductor, *_, changing = ladders(Grid.merl(60, 12, 12))
+    for ladder in (conductor, changing):
         linear, lobes = (ladder_errors(ladder, blend) for blend in (Blend.LINEAR, Blend.LOBES))
         assert np.median(lobes.log / linear.log) < 0.5
 

@@ -68,6 +68,7 @@ def test_the_page_knows_where_its_data_are_and_what_it_may_load(exported: Path) 
 def test_a_table_is_the_one_that_the_server_sends(small_library: Library, exported: Path) -> None:
     block = Block.of_table(small_library.brdf("material-3"))
     folder = json.loads((exported / "data" / "explorer.json").read_text())
+    assert folder["library"]["blends"] == ["linear"]  # whose pictures mix in the page
     assert gzip.decompress((exported / "data/tables/3.bin").read_bytes()) == block.body
     assert folder["tables"][3] == {"shape": list(block.shape), "scale": list(block.scale)}
     # Files cannot mix.

@@ -3,20 +3,21 @@
 Along theta_h, for each channel and each theta_d and phi_d,
 
     f       |\\
-            | \\            gloss = share x (lowest f from the normal to here - lowest f of all)
+            | \\            gloss = share x (lowest f from the normal to here - lowest f up to the foot), 0 beyond
             |  \\___        body  = f - gloss
-            |      ---___/
-            +-------------- theta_h
+            |   :  ---___/
+            +---:---------- theta_h
+              foot
 
-so body and gloss are non-negative, and what rises towards grazing or the light's own direction is body. A highlight is
+so body and gloss are non-negative. What rises towards grazing or the light's own direction is body, and so is what falls
+slowly beyond the foot, `REACH` widths of the lobe from the normal, or `LEAST_REACH` where that is farther. A highlight is
 known by its slopes, u = tan theta_h: one distribution of microfacets is another one's, s times as wide, where
 
     f'(u) cos^4 theta_h' = f(u / s) cos^4 theta_h / s^2
 
 which keeps the energy that a rough surface of such facets reflects, up to shadowing (so it is for the lobes of Beckmann and
 of Trowbridge and Reitz: B. Walter et al., "Microfacet Models for Refraction through Rough Surfaces", EGSR 2007, equations 25
-and 33). The width is the geometric mean of the slopes, weighted by the squared height of the lobe: what the eye takes for the
-highlight, whatever its tails. What hardly stands out of the body, such as the broad lobe of a felt, is no highlight, and has the
+and 33). The width is the geometric mean of the slopes, weighted by the height of the lobe to the power `SHARPNESS`. What hardly stands out of the body, such as the broad lobe of a felt, is no highlight, and has the
 body's colours: the share of the lobe that is gloss rises from 0 to 1 where the lobe is `FAINT` to `CLEAR` of the value
 that the table has in the mirror direction.
 """
@@ -33,6 +34,12 @@ from .brdf import Brdf, turns
 
 FAINT, CLEAR = 0.1, 0.4
 """Shares of the value in the mirror direction up to which a lobe is body, and from which it is gloss."""
+SHARPNESS = 1.5
+"""Between 1, the lobe's energy, which a wide light shows and which tails rule, and 2, the peaks that small lights show."""
+REACH = 8.0
+"""Of a lobe, in widths: there a GGX has a five hundredth of its height."""
+LEAST_REACH = np.tan(np.radians(30.0))
+"""As a slope: a mirror's haze is gloss, and hardly any diffuse body falls nearer to the normal."""
 STEEP_DEGREES = 60.0
 """The width is read where theta_d is smaller: beyond, shadowing and edges of the measurement bend the lobe."""
 
@@ -62,9 +69,12 @@ class Gloss(NamedTuple):
         gloss = lowest - lowest[:, -1:]
         steepness = _steepness(grid)
         profile = (gloss.sum(axis=0) @ steepness).astype(np.float64)
-        width = _width(profile, grid)
+        foot, width = _foot_and_width(profile, grid)
+        gloss -= gloss[:, foot : foot + 1].copy()
+        np.maximum(gloss, 0, out=gloss)
         peak = float(lowest[:, 0].sum(axis=0) @ steepness)
-        share = np.clip((profile[0] / (peak or 1.0) - FAINT) / (CLEAR - FAINT), 0, 1)
+        contrast = (profile[0] - profile[foot]) / (peak or 1.0)
+        share = np.clip((contrast - FAINT) / (CLEAR - FAINT), 0, 1)
         gloss *= np.float32(share)
         return cls(np.maximum(lobes - gloss, 0), gloss, width)
 
@@ -151,12 +161,25 @@ def _steepness(grid: Grid) -> Float32[np.ndarray, " n"]:
     return np.ascontiguousarray(to_lobes(whole, grid)[0, 0])
 
 
+def _foot_and_width(profile: Float64[np.ndarray, " n_theta_h"], grid: Grid) -> tuple[int, float]:
+    """The row at which a lobe ends, the first from `LEAST_REACH` that is `REACH` widths away, and the width above it."""
+    slopes = np.tan(grid.axis("theta_h").centres())
+    last = len(slopes) - 1
+    foot = min(int(np.searchsorted(slopes, LEAST_REACH)), last)
+    while True:
+        width = _width(np.maximum(profile - profile[foot], 0), grid)
+        reach = min(int(np.searchsorted(slopes, REACH * width)), last)
+        if reach <= foot:
+            return foot, width
+        foot = reach
+
+
 def _width(profile: Float64[np.ndarray, " n_theta_h"], grid: Grid) -> float:
     """The geometric mean of the slopes of a lobe."""
     axis = grid.axis("theta_h")
     theta, step = axis.centres(), np.diff(axis.edges())
     slopes = np.tan(theta)
-    weight = (profile * np.cos(theta) ** 4) ** 2 * slopes / np.cos(theta) ** 2 * step
+    weight = (profile * np.cos(theta) ** 4) ** SHARPNESS * slopes / np.cos(theta) ** 2 * step
     if not weight.sum() > 0:
         return 1.0
     return float(np.exp((weight * np.log(slopes)).sum() / weight.sum()))

@@ -37,6 +37,7 @@ KEPT_BYTES = 24 * 12 * MERL.size
 """Of the rows that a mixer keeps, or `LEAST_ROWS` where they are larger: as many as a recipe has."""
 LEAST_ROWS = 8
 _CHUNK = 1 << 15  # samples summed at once: the sums stay in a core's cache
+_ALIGNED_CHUNK = 1 << 18  # here a call costs more than a farther cache
 
 
 class Mixer:
@@ -175,7 +176,7 @@ def aligned_mean(
     stretches = [gloss.Stretch.by(width / part.width, grid) for part in parts]
     _, n_rows, n = parts[0].body.shape
     values = np.empty((3, n_rows, n), np.float32)
-    step = max(1, _CHUNK // n)
+    step = max(1, _ALIGNED_CHUNK // n)
     for channel in range(3):
         used = np.flatnonzero(weights[channel]).tolist()
         for start in range(0, n_rows, step):
