@@ -87,7 +87,9 @@ def test_a_draft_mixes_no_full_table(asked: dict[str, float]) -> None:
     document = RecipeDocument.model_validate(like.to_json())
     rough = found_view(control, like, Wanted(like=document, set=asked, draft=True))
     has = Control.of(LIBRARY).attributes(Recipe.from_json(rough.recipe.model_dump()))
-    assert_allclose(rough.attributes["gloss60"], has["gloss60"], rtol=0.25)
+    read = rough.attributes["gloss60"]
+    assert read is not None
+    assert_allclose(read, has["gloss60"], rtol=0.25)
 
 
 def test_a_range_is_that_with_the_others_held(client: TestClient) -> None:
