@@ -12,7 +12,7 @@ import shutil
 import tempfile
 import threading
 from collections.abc import Generator
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from dataclasses import replace
 from itertools import product
 from pathlib import Path
@@ -47,6 +47,15 @@ EXPOSURE = -1.0
 SPP = 4096
 # What the page settles for.
 SAMPLES = {"points": 128, "studio": 384}
+# Of a screenshot: a third of the samples, for which a rasteriser in software takes minutes, is as good to the eye.
+ENOUGH = 128
+PATIENCE = 300_000
+FINE = """(enough) => {
+  const { samples, settled } = document.querySelector(".material")?.dataset ?? {};
+  const live = document.querySelector(".live");
+  const whole = live && live.width > 0.9 * live.clientWidth;
+  return settled === "true" || (whole && Number(samples) >= enough);
+}"""
 Screen: TypeAlias = tuple[tuple[int, int], str, str]
 """Size of the window, theme, and what the page shows."""
 SCREENS: dict[str, Screen] = {
@@ -200,13 +209,16 @@ def square(picture: np.ndarray, covered: np.ndarray) -> np.ndarray:
 
 
 def take(browser: Browser, address: str, name: str, screen: Screen) -> None:
-    """A screenshot of the page, when its picture is finished."""
+    """A screenshot of the page, when its picture is whole and has hardly any noise."""
     (width, height), scheme, fragment = screen
     page = browser.new_page(viewport={"width": width, "height": height}, color_scheme=scheme)  # pyright: ignore[reportArgumentType]
     page.goto(address + fragment)
-    with suppress(TooLate):
-        # On a slow machine a picture that still gets better will do.
-        page.wait_for_selector(".material[data-settled=true]", timeout=300_000)
+    try:
+        page.wait_for_function(FINE, arg=ENOUGH, timeout=PATIENCE)
+    except TooLate:
+        print(f"{name}: no whole picture within {PATIENCE // 1000} s, left as it was.", flush=True)
+        page.close()
+        return
     page.screenshot(path=IMAGES / f"{name}.png", full_page=True)
     page.close()
     Image.open(IMAGES / f"{name}.png").convert("RGB").save(IMAGES / f"{name}.webp", quality=86)

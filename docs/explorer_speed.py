@@ -3,11 +3,12 @@
 speed     what the first load sends, a step of t, and how long the picture takes to settle
 large     a library of thousands: until it is ready, until the grid stands, and the memory of its scripts
 memory    minutes of dragging: the scripts' memory and the card's objects, at the start and at the end
-numbers   a slider of a number: until recipe, point and picture follow, without and with a slowed down processor
+numbers   a slider of a number, and of t: until recipe, point and picture follow, without and with a slowed down processor
 """
 
 import statistics
 import time
+from itertools import product
 from typing import Any
 
 from playwright.sync_api import Browser, CDPSession, Page
@@ -16,7 +17,9 @@ PATIENCE = 600_000
 WARM = 20
 """Seconds of dragging before memory is first read: caches fill up to their bounds."""
 THROTTLED = 6
-N_MOVES = 30
+N_MOVES = 20
+SLIDERS = {"numbers": ".dials [type=range]", "recipe": "[name=t]"}
+"""What is beside the picture, and what is moved then."""
 
 
 def speed(browser: Browser, address: str, width: int, height: int) -> None:
@@ -79,19 +82,21 @@ def memory(browser: Browser, address: str, width: int, height: int, seconds: flo
 
 
 def numbers(browser: Browser, address: str, width: int, height: int) -> None:
-    """From a move of the slider of gloss until the page shows what was asked for: medians, and the slowest."""
+    """From a move of a slider until the page shows it: of gloss, and of t where the table is mixed; medians, and the slowest."""
     page = browser.new_page(viewport={"width": width, "height": height})
     session = page.context.new_cdp_session(page)
-    for blend in ("linear", "lobes"):
-        _open(page, f"{address}#space=anchored&blend={blend}&map=Scores&aside=numbers")
-        page.wait_for_selector(".dials [type=range]:enabled", timeout=PATIENCE)
+    for blend, (name, slider) in product(("linear", "lobes"), SLIDERS.items()):
+        _open(page, f"{address}#space=anchored&blend={blend}&map=Scores&aside={name}")
+        page.wait_for_selector(f"{slider}:enabled", timeout=PATIENCE)
         for rate in (1, THROTTLED):
             # Once there and back: the materials' tables come.
-            page.evaluate(SLIDE, N_MOVES)
+            page.evaluate(SLIDE, [slider, N_MOVES])
             session.send("Emulation.setCPUThrottlingRate", {"rate": rate})
-            moves = page.evaluate(SLIDE, N_MOVES)
+            moves = page.evaluate(SLIDE, [slider, N_MOVES])
             session.send("Emulation.setCPUThrottlingRate", {"rate": 1})
-            print(f"{blend}, processor slowed down by {rate}: {_in_words(moves)}")
+            print(
+                f"{blend}, {name}, processor slowed down by {rate}: {_in_words(moves)}", flush=True
+            )
     page.close()
 
 
@@ -155,33 +160,28 @@ COUNT = """() => {
   }
 }"""
 
-# Moves one slider, each time after all has come to rest, and looks at each frame at what has changed.
-SLIDE = """async (n) => {
-  const slider = document.querySelector(".dials [type=range]");
-  const small = new OffscreenCanvas(32, 32).getContext("2d", { willReadFrequently: true });
+# Moves a slider back and forth, again and again before the page comes to rest, and looks at each frame at what has changed.
+SLIDE = """async ([selector, n]) => {
+  const slider = document.querySelector(selector);
   const look = {
-    recipe: () => document.querySelector(".recipe ol").textContent + document.querySelector(".recipe ol").innerHTML.length,
+    recipe: () => document.querySelector(".recipe ol").innerHTML,
     point: () => document.querySelector(".here").style.transform,
-    picture: () => {
-      small.drawImage(document.querySelector(".live"), 0, 0, 32, 32);
-      return small.getImageData(0, 0, 32, 32).data.join();
-    },
+    picture: () => document.querySelector(".material").dataset.shown,
   };
-  const pause = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
   const moves = [];
   for (let i = 0; i < n; i++) {
     const before = Object.fromEntries(Object.entries(look).map(([key, of]) => [key, of()]));
     const times = { recipe: null, point: null, picture: null };
     const start = performance.now();
-    slider.value = String(0.55 + 0.25 * Math.sin(i / 3));
+    slider.value = String(0.3 + 0.08 * Math.abs((i % 10) - 5));
     slider.dispatchEvent(new Event("input"));
     while (Object.values(times).includes(null) && performance.now() < start + 2000) {
       await new Promise(requestAnimationFrame);
-      for (const key of Object.keys(look))
-        if (times[key] === null && look[key]() !== before[key]) times[key] = performance.now() - start;
+      const now = performance.now() - start;
+      for (const key of Object.keys(look)) if (look[key]() !== before[key]) times[key] ??= now;
     }
     moves.push(times);
-    await pause(100);
+    await new Promise((resolve) => setTimeout(resolve, 100));
   }
   return moves;
 }"""

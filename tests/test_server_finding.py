@@ -1,5 +1,6 @@
 """Recipes by numbers, as the page asks for them."""
 
+from dataclasses import replace
 from typing import Any
 
 import pytest
@@ -8,11 +9,15 @@ from glossy import library
 from numpy.testing import assert_allclose
 
 from halfway import attributes, find, mix, reach
+from halfway.control import Control
 from halfway.control.recolour import HELD
 from halfway.instruments import ATTRIBUTES
+from halfway.library import Subset
 from halfway.people import Impressions, Perception, apart, distances
-from halfway.recipes import Blend, Recipe
+from halfway.recipes import Blend, Mixer, Recipe
 from halfway.server import create_app
+from halfway.server.finding import found_view
+from halfway.server.schema import RecipeDocument, Wanted
 
 LIBRARY = library()
 HALF = {"m0": 0.5, "m1": 0.5}
@@ -72,6 +77,19 @@ def test_what_is_asked_for_is_found(client: TestClient, blend: Blend) -> None:
     # A draft is by smaller tables, of the same materials.
     assert_allclose(rough["attributes"]["gloss60"], 6.0, rtol=0.25)
     assert rough["recipe"]["blend"] == full["recipe"]["blend"] == str(blend)
+
+
+@pytest.mark.parametrize("asked", [{}, {"gloss60": 6.0}])
+def test_a_draft_mixes_no_full_table(asked: dict[str, float]) -> None:
+    # A mixer that cannot: it knows no such material.
+    control = replace(Control.of(LIBRARY), mixer=Mixer(Subset(LIBRARY, ["m2", "m3"])))
+    like = Recipe.of("glossy", HALF, blend=Blend.LOBES)
+    document = RecipeDocument.model_validate(like.to_json())
+    rough = found_view(control, like, Wanted(like=document, set=asked, draft=True))
+    has = Control.of(LIBRARY).attributes(Recipe.from_json(rough.recipe.model_dump()))
+    read = rough.attributes["gloss60"]
+    assert read is not None
+    assert_allclose(read, has["gloss60"], rtol=0.25)
 
 
 def test_a_range_is_that_with_the_others_held(client: TestClient) -> None:

@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from jaxtyping import Float64
 
+from ..brdf import TabularBrdf
 from ..errors import OutOfReachError
 from ..instruments import (
     ATTRIBUTES,
@@ -90,7 +91,7 @@ class Control:
         search = Search(
             control=self,
             like=like,
-            reference=self.reference(like, wishes),
+            reference=self.reference(like, wishes, draft=draft),
             blend=blend,
             few=few,
             draft=draft,
@@ -110,9 +111,9 @@ class Control:
             return None
         return Range(*(self._end(wanted, wishes, goals, start, sign) for sign in (-1, 1)))
 
-    def attributes(self, recipe: Recipe) -> dict[str, Any]:
-        """The attributes of a recipe of the library, by name; of a linear one without its table."""
-        return of_readings(self.reading(recipe))
+    def attributes(self, recipe: Recipe, *, draft: bool = False) -> dict[str, Any]:
+        """The attributes of a recipe of the library, by name; of a linear one without its table, and in a ``draft`` by its small one."""
+        return of_readings(self.reading(recipe, draft=draft))
 
     def given_up(
         self, here: Mapping[str, Any], wishes: Wishes, like: Like
@@ -152,12 +153,12 @@ class Control:
             value = beyond
         return value
 
-    def reference(self, like: Like, wishes: Wishes) -> Reference:
+    def reference(self, like: Like, wishes: Wishes, *, draft: bool = False) -> Reference:
         """What a recipe shall be like; without it, the material that is nearest to the wishes."""
         if like is None:
             return Reference(self.nearness.points[wishes.nearest(self.readings.values)])
         if isinstance(like, Recipe):
-            readings = self.reading(like)
+            readings = self.reading(like, draft=draft)
             return Reference(self.nearness.seen(self.looks.of(like), readings), readings)
         return Reference.of(like, self.library, self.readings, self.nearness)
 
@@ -204,11 +205,17 @@ class Control:
             f"{told}: the nearest is {wanted.written(weights @ wanted.of(self.readings.values))}."
         )
 
-    def reading(self, recipe: Recipe) -> Float64[np.ndarray, "n_instruments 3"]:
+    def reading(
+        self, recipe: Recipe, *, draft: bool = False
+    ) -> Float64[np.ndarray, "n_instruments 3"]:
         """What instruments read off a recipe; of a linear one without its table."""
         if recipe.pictures_mix:
             return self.readings.mix(recipe.dense(self.library.names), recipe.blend)
-        return read_table(self.mixer.mix(recipe))
+        return read_table(self.table(recipe, draft=draft))
+
+    def table(self, recipe: Recipe, *, draft: bool) -> TabularBrdf:
+        """The table of a recipe, or for a ``draft`` its small one."""
+        return self.looks.tables.table(recipe) if draft else self.mixer.mix(recipe)
 
     def _as_recipe(self, like: Like) -> Like:
         """The recipe that a JSON file holds, where it is of the library; else what was given."""

@@ -78,7 +78,7 @@ class Linearised:
         for _ in range(N_STEPS):
             if missed <= ENOUGH:
                 break
-            about = self._about(weights, readings, among)
+            about = self._about(weights, readings, offset, among)
             ahead = near(about) if free else _least_change(wishes, about, weights)
             if ahead is None:
                 break
@@ -99,10 +99,14 @@ class Linearised:
         return read_table(self._mixer.mix(self._recipe(weights)))
 
     def _about(
-        self, weights: Weights, readings: Float64[np.ndarray, "n_instruments 3"], among: Among
+        self,
+        weights: Weights,
+        readings: Float64[np.ndarray, "n_instruments 3"],
+        offset: np.ndarray,
+        among: Among,
     ) -> Float64[np.ndarray, "N n_instruments 3"]:
         """What the readings of each material are to the mix about these weights; NaN of one that takes no part."""
-        own = self._small(weights)
+        own = readings - offset
         about = np.full((len(weights), *own.shape), np.nan)
         for i in np.union1d(among, np.flatnonzero(weights)).tolist():
             moved = (1 - SMALL) * weights

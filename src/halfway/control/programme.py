@@ -42,14 +42,14 @@ def solve(cost: Float64[np.ndarray, " N"], goals: Goals) -> Weights | None:
     """The weights of least cost; None where none meet the goals."""
     from scipy.optimize import linprog  # half a second to load
 
-    k, n = goals.rows.shape
     usable = np.isfinite(goals.rows).all(axis=0) & np.isfinite(cost)
-    rows = np.where(usable, goals.rows, 0)
+    rows = goals.rows[:, usable]
+    k, n = rows.shape
     sides = np.concatenate([goals.above, goals.below])
     free = np.isfinite(sides)
-    most = np.concatenate([usable, np.where(free, np.inf, 0)])
+    most = np.concatenate([np.ones(n), np.where(free, np.inf, 0)])
     result = linprog(
-        np.concatenate([np.where(usable, cost, 0), np.where(free, sides, 0)]),
+        np.concatenate([cost[usable], np.where(free, sides, 0)]),
         A_eq=np.block([[np.ones((1, n)), np.zeros((1, 2 * k))], [rows, -np.eye(k), np.eye(k)]]),
         b_eq=np.eye(1 + k)[0],
         bounds=np.stack([np.zeros_like(most), most], axis=1),
@@ -58,5 +58,6 @@ def solve(cost: Float64[np.ndarray, " N"], goals: Goals) -> Weights | None:
     )
     if result.x is None:
         return None
-    weights = np.where(result.x[:n] > LEAST_WEIGHT, result.x[:n], 0)
+    weights = np.zeros(len(usable))
+    weights[usable] = np.where(result.x[:n] > LEAST_WEIGHT, result.x[:n], 0)
     return weights / weights.sum()

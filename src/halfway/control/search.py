@@ -113,8 +113,7 @@ class Search:
         return wishes.missed(read_table(self._table(recipe)))
 
     def _table(self, recipe: Recipe) -> TabularBrdf:
-        control = self.control
-        return control.looks.tables.table(recipe) if self.draft else control.mixer.mix(recipe)
+        return self.control.table(recipe, draft=self.draft)
 
     def _recipe(self, weights: Weights) -> Recipe:
         return self.control.recipe(weights, self.blend)

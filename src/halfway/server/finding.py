@@ -46,7 +46,7 @@ def found_view(control: Control, like: Recipe, wanted: Wanted) -> FoundView:
     """The recipe that misses least of what is wanted; without any wishes the one that it shall be like."""
     wishes = Wishes.of(wanted.set)
     recipe = _found(control, wishes, like, wanted) if wanted.set else like
-    has = control.attributes(recipe)
+    has = control.attributes(recipe, draft=wanted.draft)
     lost = {} if wanted.draft else control.given_up(has, wishes, like)
     return FoundView(
         recipe=RecipeDocument.model_validate(recipe.to_json()),

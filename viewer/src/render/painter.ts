@@ -55,6 +55,8 @@ export class Painter {
   /** The sample whose geometry the stage's buffer holds. */
   private buffered = -1;
   private shown: readonly [readonly Ingredient[], readonly Ingredient[]] = [[], []];
+  /** How often another recipe came to be shown. */
+  changes = 0;
   private readonly points: Pass;
   private readonly environment: Pass;
   private readonly composite = new Pass(compositeShader, { blending: THREE.NoBlending });
@@ -206,8 +208,10 @@ export class Painter {
     if (
       wanted.recipe.length > 0 &&
       this.layers.samples(namesIn(wanted.recipe, wanted.other)) >= this.least(wanted)
-    )
+    ) {
+      if (wanted.recipe !== this.shown[0]) this.changes++;
       this.shown = [wanted.recipe, wanted.other];
+    }
     const [recipe, other] = this.shown;
     // All samples may just have started over: the last picture stays until each material has one again. Before the first
     // picture an empty one is drawn all the same, for a card begins with the samples when the canvas is drawn on.

@@ -25,6 +25,8 @@ export interface Progress {
   readonly target: number;
   /** Whether no better picture comes. */
   readonly settled: boolean;
+  /** How often another recipe came to be shown. */
+  readonly shown: number;
 }
 
 export class LivePicture {
@@ -167,6 +169,7 @@ export class LivePicture {
       samples: recipe.length > 0 ? needed.fewest : 0,
       target: needed.target,
       settled: recipe.length > 0 && mixing.length === 0 && quality.settled(needed),
+      shown: painter.changes,
     });
   }
 

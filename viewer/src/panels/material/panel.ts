@@ -55,7 +55,7 @@ export function materialPanel(context: Context): HTMLElement {
 }
 
 function describe(
-  { materials, loaded, samples, target, settled }: Progress,
+  { materials, loaded, samples, target, settled, shown }: Progress,
   panel: HTMLElement,
   note: HTMLElement,
   bar: HTMLElement,
@@ -65,7 +65,7 @@ function describe(
   note.textContent =
     loaded < 1 ? `loading ${which}, ${Math.round(100 * loaded)} %` : `${samples} / ${target} samples`;
   bar.style.transform = `scaleX(${share < 1 ? share : 0})`;
-  Object.assign(panel.dataset, { samples, ready: samples > 0, settled });
+  Object.assign(panel.dataset, { samples, ready: samples > 0, settled, shown });
 }
 
 function homeButton({ store }: Context): HTMLElement {
