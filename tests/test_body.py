@@ -107,7 +107,7 @@ def test_a_material_in_a_colour_of_its_own_keeps_its_highlight(blend: Blend, dra
     has, had = of_table(mix(THREE, recipe)), of_table(THREE.brdf("shiny"))
     # A draft is by smaller tables.
     assert_allclose(has["body"], COLOUR / 2, atol=0.02 if draft else 1e-5)
-    assert control.given_up(recipe, wishes, "shiny") == {}
+    assert control.given_up(control.attributes(recipe), wishes, "shiny") == {}
     for name in HELD:
         assert not changed(ATTRIBUTES[name], had[name], has[name])
 
@@ -123,7 +123,7 @@ def test_a_mix_is_found_where_it_has_it_all():
     assert control.find(wishes, like="shiny").is_recoloured
     released = control.find(wishes, like="shiny", release=HELD)
     assert set(released.names) >= {"shiny", "matte"}
-    assert "gloss60" in control.given_up(released, wishes, "shiny")
+    assert "gloss60" in control.given_up(control.attributes(released), wishes, "shiny")
 
 
 def test_a_recipe_is_recoloured_from_its_own_body():
