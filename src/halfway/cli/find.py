@@ -76,7 +76,7 @@ def find(
     halfway find --like cherry-235 --set gloss60=35 -o glossy.json
     halfway find merl.brdflib --set L=40 --set a=20 --set b=10 --at-most gloss60=5
     halfway find --like teflon --set gloss60=20 --blend lobes -o shiny.json
-    halfway find --like sphere.png -o seen.json                         in the light of halfway's own spheres
+    halfway find --like sphere.png -o seen.json                         in the light that small pictures have here
     halfway find --like photo.png --lights forest.exr -o seen.json      in that of a place
     halfway find --like scan.binary --set "body=#7a3b1e" -o new.binary  its highlight is held, unless --release gloss60
     """
