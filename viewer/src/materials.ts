@@ -4,6 +4,7 @@
 // off the specular gloss at 60 degrees and the width of the highlight, where instruments have read them.
 
 import { toLab } from "./colour";
+import { sum } from "./numbers";
 
 export const KINDS = ["fabric", "metal", "paint", "plastic", "rubber", "stone", "wood", "other"] as const;
 // biome-ignore format: it is one list.
@@ -132,18 +133,17 @@ function wordsOf(text: string): string[] {
 
 /**
  * The names that fit all the words of a query, each as the start of a word of the name, of what the material is, or of
- * something that means the same. Those whose names say it come first. Where none does, those that have the words anywhere.
+ * something that means the same. Those whose names have more of the words come first. Where none does, those that have the words anywhere.
  */
 export function matching(all: readonly Described[], query: string): string[] {
   const words = query
     .toLowerCase()
     .split(/[\s-]+/)
     .filter(Boolean);
-  const ranked = all.map((each) => ({
-    name: each.name,
-    rank: Math.max(...words.map((word) => rankOf(each, word))),
-  }));
-  const hits = [0, 1].flatMap((rank) => ranked.filter((each) => each.rank === rank));
+  const hits = all
+    .map((each) => ({ name: each.name, ranks: words.map((word) => rankOf(each, word)) }))
+    .filter(({ ranks }) => Math.max(...ranks) < 2)
+    .sort((a, b) => sum(a.ranks) - sum(b.ranks));
   if (hits.length) return hits.map(({ name }) => name);
   return all
     .map(({ name }) => name)

@@ -49,8 +49,8 @@ test("a material is described by its name, its picture and what was read off it"
 
 test.each([
   ["red", ["red-fabric2", "red-phenolic", "specular-maroon-phenolic"]],
-  ["red glossy", ["specular-maroon-phenolic", "red-phenolic"]],
-  ["glossy red plastic", ["specular-maroon-phenolic", "red-phenolic"]],
+  ["red glossy", ["red-phenolic", "specular-maroon-phenolic"]],
+  ["glossy red plastic", ["red-phenolic", "specular-maroon-phenolic"]],
   ["pheno", ["specular-maroon-phenolic", "red-phenolic"]],
   ["car paint", ["blue-metallic-paint"]],
   ["metallic", ["blue-metallic-paint", "chrome", "ss440"]],
