@@ -17,7 +17,7 @@ from halfway.export.scenes import RENDERERS, write_scene
 from halfway.fit import OpenPbr
 from halfway.formats import read_brdf
 from halfway.formats.rgl_writer import RESOLUTIONS
-from halfway.formats.tensor_file import read_tensor_file
+from halfway.formats.tensor_file import read_tensors
 from halfway.models import builtin
 from halfway.render import register
 from halfway.render.variant import load_mitsuba
@@ -90,7 +90,12 @@ def test_an_anisotropic_material_takes_a_file_that_keeps_it_whole(tmp_path, monk
     # The noise of 64 samples, and a small file.
     assert psnr(stock, exact) > 27
     write_scene(tmp_path / "pbrt", brushed, "pbrt-v4")
-    assert len(read_tensor_file(tmp_path / "pbrt" / "material.bsdf")["phi_i"]) > 2
+    assert len(tensors(tmp_path / "pbrt" / "material.bsdf")["phi_i"]) > 2
+
+
+def tensors(path):
+    with path.open("rb") as file:
+        return read_tensors(file, path.name)
 
 
 @pytest.mark.parametrize("renderer", ["pbrt-v2", "pbrt-v4"])
@@ -103,7 +108,7 @@ def test_pbrt_scenes_follow_the_grammar(tmp_path, table, renderer):
     assert path in written.files
     assert_allclose(read_brdf(path).eval(UP, UP), table.eval(UP, UP), rtol=0.02)
     if renderer == "pbrt-v4":
-        assert {"wavelengths", "spectra"} < set(read_tensor_file(path))
+        assert {"wavelengths", "spectra"} < set(tensors(path))
 
 
 @pytest.mark.parametrize(

@@ -25,6 +25,7 @@ export function numberSliders(context: Context): HTMLElement {
     else if (names.length > 0)
       note.textContent = `No mix has all of these: ${inWords(names, asked!, numbers!)}.`;
     else note.textContent = asked && numbers ? priceOf(asked, numbers) : "";
+    note.title = note.textContent ?? "";
   });
   return element;
 }
