@@ -233,6 +233,8 @@ def explorer(
     page.on("pageerror", lambda error: errors.append(str(error)))
     explorer = Explorer(page, address)
     yield explorer
+    # What fails from here on, such as a question to a server that is gone, is no fault.
+    page.remove_listener("console", on_console)
     page.unroute_all(behavior="ignoreErrors")
     page.goto(address + EMPTY)
     page.evaluate("localStorage.clear()")
