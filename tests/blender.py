@@ -26,6 +26,7 @@ from in_three import draw  # noqa: E402
 from written_files import keras, nbrdf_layers  # noqa: E402
 
 from halfway import open_library  # noqa: E402
+from halfway.brdf.quality import LIGHTS  # noqa: E402
 from halfway.export import write_fit, write_recipe, write_scenes  # noqa: E402
 from halfway.export.usd import Fits, write_usd  # noqa: E402
 from halfway.fit import fit  # noqa: E402
@@ -106,6 +107,7 @@ def blender(*words: str, **options: str) -> subprocess.CompletedProcess[str]:
 
 def in_blender(what: str, folder: Path) -> None:
     """Run `in_blender`; what it prints for us, and its failure, are ours."""
+    (folder / "lights.json").write_text(json.dumps(LIGHTS))
     options = {"BLENDER_USER_RESOURCES": str(folder / "user"), "PYTHONWARNINGS": "ignore"}
     done = blender(str(ROOT / "tests" / "in_blender.py"), what, str(folder), **options)
     print(*(line[5:] for line in done.stdout.splitlines() if line.startswith("SAID ")), sep="\n")

@@ -3,6 +3,8 @@
 Pictures of it are compared with what the table says itself.
 """
 
+import json
+import sys
 from importlib import import_module
 from pathlib import Path
 
@@ -12,14 +14,8 @@ from mathutils import Vector
 
 ADDON = "bl_ext.user_default.halfway"
 SIZE, SAMPLES = 48, 128
-# As `halfway.brdf.quality`: x to the right, y up, z to the viewer; and the weight.
-LIGHTS = (
-    ((0.5, 0.6, 0.7), 0.6),
-    ((-0.8, 0.2, 0.35), 0.5),
-    ((0.3, -0.9, -0.2), 0.5),
-    ((0.05, 0.1, 1.0), 0.3),
-    ((-0.3, 0.8, -0.4), 0.5),
-)
+# Those of `halfway.brdf.quality`, which is not here: x to the right, y up, z to the viewer; and the weight.
+LIGHTS = json.loads(Path(sys.argv[2], "lights.json").read_text())
 POINT, POWER, COLOUR = Vector((2.0, 1.0, 3.0)), 40.0, (1.0, 0.5, 0.25)
 
 

@@ -194,6 +194,12 @@ def test_the_linear_space_has_no_points_to_go_to(client: TestClient) -> None:
     assert answer.status_code == 400
 
 
+def test_an_unknown_pace_is_refused(client: TestClient) -> None:
+    answer = client.get("/api/legs/paper/material-0/material-4?pace=hurried")
+    assert answer.status_code == 400
+    assert "perceptual|people|uniform" in answer.json()["error"]
+
+
 # Mixes
 
 

@@ -82,7 +82,6 @@ def find(
     """
     from halfway.control import Control, Wishes
     from halfway.export import write_material, write_recipe
-    from halfway.look import PACING_SCENE, SphereScene
     from halfway.recipes import Blend, NamedBrdf
 
     from .arguments import ArgumentError, parse_lights, parse_targets
@@ -92,8 +91,7 @@ def find(
         raise ArgumentError(
             "there is nothing to find: give --set, --at-most, --at-least or --like."
         )
-    scene = SphereScene.under(parse_lights(lights)) if lights else PACING_SCENE
-    control = Control.of(lib, scene=scene, work=work())
+    control = Control.of(lib, lights=parse_lights(lights) if lights else None, work=work())
     recipe = control.find(
         wishes,
         like=like or None,

@@ -1,7 +1,6 @@
 """``halfway route``: recipes, and tables, on the way from one material to another."""
 
 import json
-import re
 from collections.abc import Callable
 from functools import partial
 from typing import TYPE_CHECKING
@@ -78,9 +77,9 @@ def route(
 
 def _stop(library: "Library", address: str, word: str) -> "str | Recipe":
     """The material of a name, or the recipe in a file."""
-    from halfway.recipes import open_recipe
+    from halfway.recipes import is_recipe_file, open_recipe
 
-    if word in library.names or not re.search(r"\.json(:\d+)?$", word):
+    if word in library.names or not is_recipe_file(word):
         return word
     return open_recipe([address, word])[1]
 

@@ -22,7 +22,7 @@ from ..instruments import (
 )
 from ..library import Library, LibraryRef, open_library
 from ..look import PACING_SCENE, Looks, SphereScene
-from ..recipes import Blend, Mixer, Recipe, open_recipe, split_address
+from ..recipes import Blend, Mixer, Recipe, is_recipe_file, open_recipe
 from ..tasks import HERE, Work
 from .nearness import Nearness
 from .programme import Goals, Weights, solve
@@ -59,15 +59,16 @@ class Control:
         cls,
         library: Library | str,
         *,
-        scene: SphereScene = PACING_SCENE,
+        lights: np.ndarray | None = None,
         mixer: Mixer | None = None,
         work: Work = HERE,
     ) -> "Control":
         """What is known of ``library``: read off its tables once, and kept in the cache; its ``mixer``, where there is one.
 
-        Pictures are compared in the light of ``scene``.
+        Pictures are compared in the light in which routes are paced, or in other ``lights`` (see `SphereScene.under`).
         """
         opened = open_library(library)
+        scene = PACING_SCENE if lights is None else SphereScene.under(lights)
         readings = Readings.fit(opened, work=work)
         looks = Looks.fit(opened, scene, work=work)
         return cls(opened, readings, looks, Nearness.of(looks, readings), mixer or Mixer(opened))
@@ -219,9 +220,7 @@ class Control:
 
     def _as_recipe(self, like: Like) -> Like:
         """The recipe that a JSON file holds, where it is of the library; else what was given."""
-        if not isinstance(like, str) or like in self.library.names or ".json" not in like:
-            return like
-        if len(split_address(like)) > 1:
+        if not isinstance(like, str) or like in self.library.names or not is_recipe_file(like):
             return like
         library, recipe = open_recipe([like], library=self.library.address)
         return recipe if library.checksum == self.library.checksum else like

@@ -7,7 +7,6 @@ import numpy as np
 
 from ..errors import ControlError, OutOfReachError
 from ..library import Library
-from ..look import PACING_SCENE, SphereScene
 from ..recipes import Blend, Recipe
 from ..tasks import HERE, Work
 from .control import Control, Range
@@ -71,8 +70,7 @@ def find(
         raise ControlError(
             "there is nothing to find: expected an attribute, or what it shall be like."
         )
-    scene = PACING_SCENE if lights is None else SphereScene.under(lights)
-    control = Control.of(library, scene=scene, work=work)
+    control = Control.of(library, lights=lights, work=work)
     return control.find(
         wishes, like=like, blend=Blend(blend), few=few, clamp=clamp, release=release
     )

@@ -7,6 +7,7 @@ from .named import NamedBrdf, file_names, file_stem
 from .opening import (
     ChangedLibraryWarning,
     is_library,
+    is_recipe_file,
     open_materials,
     open_recipe,
     split_address,
@@ -25,6 +26,7 @@ __all__ = [
     "file_names",
     "file_stem",
     "is_library",
+    "is_recipe_file",
     "mix",
     "open_materials",
     "open_recipe",

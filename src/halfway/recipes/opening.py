@@ -126,7 +126,7 @@ def _materials(word: str, elsewhere: str) -> Iterator[NamedBrdf]:
         yield from _store(path)
     elif isinstance(path, Path) and path.is_dir():
         yield from _folder(path)
-    elif _json_file(word)[0]:
+    elif is_recipe_file(word):
         yield NamedBrdf.mixed(*open_recipe([word], library=elsewhere), word)
     elif isinstance(path, Path) and path.exists():
         yield _file(path)
@@ -226,6 +226,11 @@ def _with_files(library: Library, names: Sequence[str], files: Sequence[str]) ->
 
 
 # Documents
+
+
+def is_recipe_file(word: str) -> bool:
+    """Whether a word is the name of a recipe's file: ``FILE.json``, or one of a route's, ``FILE.json:INDEX``."""
+    return _json_file(word)[0] is not None
 
 
 def _json_file(what: str) -> tuple[Path | None, str]:

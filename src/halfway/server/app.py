@@ -28,7 +28,7 @@ from threading import Thread
 from typing import Annotated, Any
 from urllib.parse import quote
 
-from fastapi import FastAPI, Path, Request, Response
+from fastapi import FastAPI, Path, Query, Request, Response
 from fastapi.exceptions import RequestValidationError
 from fastapi.responses import JSONResponse, StreamingResponse
 from starlette.concurrency import run_in_threadpool
@@ -36,6 +36,7 @@ from starlette.exceptions import HTTPException
 
 from ..errors import HalfwayError
 from ..library import Library
+from ..space import PACES
 from ..tasks import HERE, Work
 from .blocks import Block
 from .explorer import Explorer
@@ -61,6 +62,7 @@ from .schema import (
 from .taking import SUFFIXES
 
 Name = Annotated[str, Path(max_length=200)]
+Pace = Annotated[str, Query(pattern=f"^({'|'.join(PACES)})$")]
 MISTAKES: dict[int | str, dict[str, Any]] = {400: {"model": Problem}, 404: {"model": Problem}}
 BYTES: dict[int | str, dict[str, Any]] = {
     **MISTAKES,
@@ -130,7 +132,7 @@ def _add_queries(app: FastAPI, explorer: Explorer) -> None:
 
     @app.get("/api/legs/{space}/{start}/{stop}")
     def leg(
-        space: Name, start: Name, stop: Name, blend: str | None = None, pace: str = ""
+        space: Name, start: Name, stop: Name, blend: str | None = None, pace: Pace = PACES[0]
     ) -> LegView:
         return explorer.leg(space, start, stop, blend, pace)
 

@@ -161,7 +161,7 @@ class Explorer:
         )
 
     def leg(
-        self, space: str, start: str, stop: str, blend: str | None = None, pace: str = ""
+        self, space: str, start: str, stop: str, blend: str | None = None, pace: str = PACES[0]
     ) -> LegView:
         """The way from one material to another, of which the page makes its routes; with a ``pace`` that is not quick."""
         return self._leg(space, start, stop, blend, pace == "people")

@@ -30,7 +30,10 @@ const WORDS: readonly (readonly [word: string, meaning: string])[] = [
     "search for like chrome, or red like chrome: the materials that people find most alike come first, by the same distance",
   ],
   ["recipe", "which materials, and how much of each: the weights are never negative and sum to 1"],
-  ["blend", "how weighted materials become one. Here their tables are added up (linear)"],
+  [
+    "blend",
+    "how weighted materials become one: their tables added up (linear), their square roots or logarithms (root, log), or with one highlight that narrows (lobes)",
+  ],
   [
     "score",
     "how far a material goes along a principal component of the library: what differs most comes first",
