@@ -13,7 +13,7 @@ import pytest
 from batch_server import N
 from patience import PATIENCE, wait_until
 
-from halfway import Grid, LinearSpace, Route, TabularBrdf, build_library
+from halfway import Grid, LinearSpace, Route, TabularBrdf, __version__, build_library
 from halfway.batch import verify
 from halfway.errors import OutputError
 from halfway.export import write_route
@@ -148,6 +148,14 @@ def test_ctrl_c_while_it_starts_is_one_line():
             break
     assert process.returncode in EXIT_130
     assert said == [INTERRUPTED]
+
+
+def test_ctrl_c_when_all_is_done_has_nothing_to_say():
+    script = "import atexit, signal; atexit.register(signal.raise_signal, signal.SIGINT);"
+    script += "from halfway.__main__ import main; main()"
+    command = [sys.executable, "-c", script, "--version"]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert (done.stdout, done.stderr) == (f"{__version__}\n", "")
 
 
 @pytest.fixture
