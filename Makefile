@@ -6,7 +6,7 @@ RUN := $(UV) run --frozen
 PYTEST := $(RUN) pytest -n 2
 
 .DEFAULT_GOAL := help
-.PHONY: help setup demo test lint viewer chromium bench pictures docs release-check lowest blender blender-check
+.PHONY: help setup demo test lint viewer chromium bench pictures docs docs-check release-check lowest blender blender-check
 
 help:           ## this list
 	@grep -hE '^[a-z-]+: .*##|^[a-z-]+:  *##' $(MAKEFILE_LIST) | sed -E 's/:.*## */\t/' | expand -t 14
@@ -33,8 +33,11 @@ viewer: setup   ## the explorer's page: lint, types, tests, build
 chromium: setup # for the browser tests: the system's, or Playwright's own
 	@command -v chromium >/dev/null || $(RUN) playwright install chromium
 
-test: lint viewer chromium ## every check
-	$(RUN) sphinx-build -E -W --keep-going -q -b html -D plot_gallery=0 docs docs/_build/check # the tests run the gallery
+docs-check: setup # every warning is an error; the tests run the gallery
+	$(RUN) sphinx-build -E -W --keep-going -q -b html -D plot_gallery=0 docs docs/_build/check
+
+test: chromium ## every check
+	@$(MAKE) --no-print-directory --jobs 2 lint viewer docs-check
 	$(PYTEST)
 
 docs: setup     ## the site, in docs/_build/html; every warning is an error
