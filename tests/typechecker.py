@@ -10,8 +10,8 @@ from beartype import BeartypeConf, beartype
 
 # An int is a float, as type checkers have it.
 _strict = beartype(conf=BeartypeConf(is_pep484_tower=True))
-ENOUGH = 200
-"""Calls of one function. A fit or a triangulation calls some a hundred thousand times, and the checks would be half of what all tests take."""
+ENOUGH = 20
+"""Calls of one function. A fit or a triangulation calls some a hundred thousand times, and the checks would be much of what all tests take."""
 
 
 def check(function: Callable[..., Any]) -> Callable[..., Any]:
