@@ -94,9 +94,8 @@ ALONG_X = "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
 ALONG_Y = "vt 0 1\nvt 0 0\nvt 1 0\nvt 1 1\n"
 
 
-def on_sheet(explorer: Explorer, texture_coordinates: str, grain: int) -> np.ndarray:
-    """The finished picture of one material on an upright sheet."""
-    settled(explorer, "narrow", f"light=points&grain={grain}")
+def on_sheet(explorer: Explorer, texture_coordinates: str) -> np.ndarray:
+    """The finished picture of the present material on an upright sheet."""
     faces = "f 1/1 2/2 3/3\nf 1/1 3/3 4/4\n" if texture_coordinates else "f 1 2 3\nf 1 3 4\n"
     body = (SHEET + texture_coordinates + faces).encode()
     file = {"name": "sheet.obj", "mimeType": "text/plain", "buffer": body}
@@ -110,12 +109,14 @@ def on_sheet(explorer: Explorer, texture_coordinates: str, grain: int) -> np.nda
 def test_the_tangent_of_a_mesh_is_where_its_first_texture_coordinate_grows(
     explorer: Explorer,
 ) -> None:
-    upright = on_sheet(explorer, ALONG_Y, 0)
-    turned = on_sheet(explorer, ALONG_X, 90)
-    expect(explorer.page.get_by_text("sheet.obj has no texture coordinates")).to_have_count(0)
-    level = on_sheet(explorer, "", 90)
-    expect(explorer.page.get_by_text("sheet.obj has no texture coordinates")).to_be_visible()
-    across = on_sheet(explorer, ALONG_X, 0)
+    said = explorer.page.get_by_text("sheet.obj has no texture coordinates")
+    settled(explorer, "narrow", "light=points&grain=0")
+    upright, across = (on_sheet(explorer, along) for along in (ALONG_Y, ALONG_X))
+    settled(explorer, "narrow", "light=points&grain=90")
+    turned = on_sheet(explorer, ALONG_X)
+    expect(said).to_have_count(0)
+    level = on_sheet(explorer, "")
+    expect(said).to_be_visible()
     assert_allclose(turned, upright, atol=0.02)
     assert_allclose(level, upright, atol=0.02)
     assert np.abs(across - upright).max() > 0.1
