@@ -2,8 +2,8 @@
 
 UV := $(shell command -v uv 2>/dev/null || echo python3 -m uv)
 RUN := $(UV) run --frozen
-# Two workers: a test run leaves the machine usable.
-PYTEST := $(RUN) pytest -n 2
+# Two workers: a test run leaves the machine usable. One has a whole file, and makes what its tests share once.
+PYTEST := $(RUN) pytest -n 2 --dist loadfile --no-loadscope-reorder
 
 .DEFAULT_GOAL := help
 .PHONY: help setup demo test lint viewer chromium bench pictures docs docs-check release-check lowest blender blender-check
