@@ -21,6 +21,7 @@ from halfway.halfdiff import Grid
 from halfway.judge import highlight, ladder_errors, ladders
 from halfway.library import ProceduralLibrary
 from halfway.look import PACING_SCENE, Looks, SphereOperator, appearance, cielab_difference
+from halfway.look.small_tables import SmallTables
 from halfway.models import builtin
 from halfway.recipes import Blend, Mixer, aligned_mean
 from halfway.space import AnchoredSpace, LinearSpace, Route
@@ -139,6 +140,25 @@ def test_the_picture_of_a_mix_is_that_of_its_table(materials, blend):
     exact = operator.picture(mix(materials, recipe).values.reshape(3, -1))
     shown = looks.mix(recipe.weights[:, None], blend)[0]
     assert cielab_difference(appearance(shown), appearance(exact)) < 0.3
+
+
+@blends
+def test_how_a_mix_changes_is_what_mixes_nearby_differ_by(materials, blend):
+    """Towards each material, on some columns. The slope of a stretched lobe jumps from cell to cell, within a step of .005."""
+    weights, step = np.array([0.3, 0.2, 0.1, 0.2, 0.1, 0.1]), 0.005
+    columns = np.arange(0, 270, 7)
+    tables = SmallTables(materials)
+
+    def mixed(towards, share):
+        each = weights + share * (np.eye(6)[towards] - weights)
+        whole = tables.mix(np.broadcast_to(each, (3, 1, 6)), blend)[:, 0]
+        return whole.reshape(3, 90, 270)[..., columns].reshape(3, -1).astype(np.float64)
+
+    mix, changes = tables.on(columns).about(weights, blend, np.arange(6))
+    assert_allclose(mix, mixed(0, 0.0), rtol=1e-4)
+    for i, change in enumerate(changes):
+        between = (mixed(i, step) - mixed(i, -step)) / (2 * step)
+        assert np.abs(change - between).sum() < 0.02 * np.abs(between).sum()
 
 
 def test_lobes_bring_a_matte_and_a_mirror_to_one_highlight():

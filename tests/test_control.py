@@ -81,8 +81,9 @@ def test_what_another_blend_does_not_have_is_refused_or_the_nearest_taken():
     assert has["gloss60"] > 0.9 * ends("gloss60").high
 
 
-def test_like_a_material_is_that_material():
-    assert CONTROL.find(Wishes(), like="m3").names == ("m3",)
+@pytest.mark.parametrize("blend", Blend)
+def test_like_a_material_is_that_material(blend: Blend):
+    assert CONTROL.find(Wishes(), like="m3", blend=blend).names == ("m3",)
 
 
 def test_like_a_file_that_is_one_of_the_materials_is_that_material(tmp_path):

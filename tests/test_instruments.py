@@ -13,7 +13,7 @@ from halfway.brdf import TabularBrdf, fresnel
 from halfway.brdf.quadrature import Windows
 from halfway.errors import ControlError
 from halfway.halfdiff import Axis, Grid, cosines
-from halfway.instruments import ATTRIBUTES, Readings, attribute, of_readings, read_table
+from halfway.instruments import ATTRIBUTES, Reader, Readings, attribute, of_readings, read_table
 from halfway.instruments.functionals import INSTRUMENTS, PROFILE, RECEPTORS, SOURCE
 from halfway.library import ProceduralLibrary
 from halfway.recipes import Blend
@@ -167,6 +167,24 @@ def test_an_instrument_reads_the_mean_over_turns_of_an_anisotropic_sample():
     table = TabularBrdf(values, grid)
     mean = TabularBrdf(values.mean(axis=-1, dtype=np.float64).astype(np.float32), GRID)
     assert_allclose(read_table(table), read_table(mean), rtol=1e-5)
+
+
+@pytest.mark.parametrize("axes", [(), (Axis("phi_h", 4, 2 * np.pi, periodic=True),)])
+def test_a_few_instruments_read_the_same_off_the_columns_that_they_need(axes: tuple[Axis, ...]):
+    grid = Grid((*GRID.axes, *axes))
+    values = np.random.default_rng(0).gamma(1, size=(2, 3, *grid.shape)).astype(np.float32)
+    reader = Reader.of({"gloss60", "profile_5", "albedo45"}, grid)
+    columns = values.reshape(2, 3, grid.shape[0], -1)[..., reader.columns]
+    got = reader.read(columns.reshape(2, 3, -1))
+    values[..., ~grid.mask()] = np.nan
+    whole = np.stack([read_table(TabularBrdf(each, grid)) for each in values])
+    read = np.isfinite(got).all(axis=(0, 2))
+    assert [name for name, is_read in zip(INSTRUMENTS, read, strict=True) if is_read] == [
+        "gloss60",
+        "albedo45",
+        "profile_5",
+    ]
+    assert_allclose(got[:, read], whole[:, read], rtol=1e-5)
 
 
 def test_what_readings_stand_for_has_every_attribute():

@@ -78,6 +78,12 @@ class Gloss(NamedTuple):
         gloss *= np.float32(share)
         return cls(np.maximum(lobes - gloss, 0), gloss, width)
 
+    def stretched(self, width: float, grid: Grid) -> Lobes:
+        """The table whose highlight is this wide."""
+        lobes = Stretch.by(width / self.width, grid).rows(self.gloss, slice(None))
+        lobes += self.body
+        return lobes
+
 
 class Stretch(NamedTuple):
     """A gloss made wider or narrower: where each of its rows comes from, and how its values change."""
@@ -102,11 +108,12 @@ class Stretch(NamedTuple):
         return cls(lower, *(share.astype(np.float32)[:, None] for share in shares))
 
     def rows(
-        self, gloss: Float32[np.ndarray, "n_theta_h n"], part: slice
-    ) -> Float32[np.ndarray, "n_rows n"]:
+        self, gloss: Float32[np.ndarray, "*c n_theta_h n"], part: slice
+    ) -> Float32[np.ndarray, "*c n_rows n"]:
         """Some rows of a gloss, stretched."""
         lower = self.lower[part]
-        stretched, upper = gloss[lower], gloss[np.minimum(lower + 1, len(gloss) - 1)]
+        upper = np.minimum(lower + 1, len(self.lower) - 1)
+        stretched, upper = np.take(gloss, lower, axis=-2), np.take(gloss, upper, axis=-2)
         stretched *= self.near[part]
         upper *= self.far[part]
         stretched += upper

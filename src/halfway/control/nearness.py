@@ -39,18 +39,21 @@ class Nearness:
     """Of each number."""
     scene: SphereScene
     """In which they are pictured."""
+    parts: Int[np.ndarray, " n_pixels"]
+    """Of the picture, in which its pixels are."""
 
     @classmethod
     def of(cls, looks: Looks, readings: Readings) -> "Nearness":
         """The numbers of a library, by its pictures and readings."""
-        points = _numbers(looks.scene, looks.images, readings.values)
+        parts = parts_of(looks.scene.mask())
+        points = _numbers(parts, looks.images, readings.values)
         n_picture = points.shape[1] - len(REFLECTIONS) - 3
         groups = np.repeat(GROUPS, [n_picture, len(REFLECTIONS), 3])
-        return cls(points, tuple(groups.tolist()), looks.scene)
+        return cls(points, tuple(groups.tolist()), looks.scene, parts)
 
     def seen(self, picture: np.ndarray, readings: np.ndarray) -> Float64[np.ndarray, " d"]:
         """The numbers of a material, by its picture in the scene and its readings."""
-        return _numbers(self.scene, picture[None], readings[None])[0]
+        return _numbers(self.parts, picture[None], readings[None])[0]
 
     def scaled(
         self, reference: Float64[np.ndarray, " d"], *, held: Collection[str]
@@ -80,24 +83,30 @@ class Nearness:
 
 
 def _numbers(
-    scene: SphereScene, pictures: np.ndarray, readings: np.ndarray
+    parts: Int[np.ndarray, " n_pixels"], pictures: np.ndarray, readings: np.ndarray
 ) -> Float64[np.ndarray, "N d"]:
     reflections = [ATTRIBUTES[name].of(readings) / 100 for name in REFLECTIONS]
-    means = part_means(pictures, scene.mask())
+    means = part_means(pictures, parts)
     return np.concatenate(
         [means, np.stack(reflections, axis=1), ATTRIBUTES["body"].of(readings)], axis=1
     )
 
 
-def part_means(pictures: np.ndarray, mask: Mask) -> Float64[np.ndarray, "N n_picture"]:
-    """The means of the parts of pictures of a sphere, of which only the pixels of ``mask`` are given, shape (N, p, 3)."""
+def parts_of(mask: Mask) -> Int[np.ndarray, " n_pixels"]:
+    """The parts in which the pixels of a sphere are, those of ``mask``."""
     side = np.arange(len(mask)) * N_PARTS // len(mask)
-    part = (side[:, None] * N_PARTS + side)[mask]
-    means = [pictures[:, part == i].mean(axis=1, dtype=np.float64) for i in _parts()]
+    return (side[:, None] * N_PARTS + side)[mask]
+
+
+def part_means(
+    pictures: np.ndarray, parts: Int[np.ndarray, " n_pixels"]
+) -> Float64[np.ndarray, "N n_picture"]:
+    """The means of the parts of pictures of a sphere, of whose pixels alone they are, shape (N, n_pixels, 3)."""
+    means = [pictures[:, parts == i].mean(axis=1, dtype=np.float64) for i in _on_sphere()]
     return np.concatenate(means, axis=1)
 
 
-def _parts() -> Int[np.ndarray, " n_parts"]:
+def _on_sphere() -> Int[np.ndarray, " n_parts"]:
     """The parts whose middle is on the sphere."""
     across = (np.arange(N_PARTS) + 0.5) * 2 / N_PARTS - 1
     return np.flatnonzero(np.hypot(across, across[:, None]) < 1)

@@ -15,7 +15,7 @@ from jaxtyping import Float64
 
 from ..colour import from_srgb
 from ..errors import ControlError
-from .nearness import DARK, part_means
+from .nearness import DARK, part_means, parts_of
 
 PICTURES = (".png", ".jpg", ".jpeg", ".webp")
 LEAST_SIZE = 24
@@ -38,7 +38,7 @@ def picture_numbers(
     n = len(linear)
     across = (np.arange(n) + 0.5) * 2 / n - 1
     sphere = np.hypot(across, across[:, None]) < 1
-    means = part_means(linear[sphere][None], sphere)[0]
+    means = part_means(linear[sphere][None], parts_of(sphere))[0]
     scale = (means + DARK) ** (2 / 3)
     v, _ = nnls((materials / scale).T, means / scale)
     if not v.any():

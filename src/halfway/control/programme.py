@@ -54,7 +54,8 @@ def solve(cost: Float64[np.ndarray, " N"], goals: Goals) -> Weights | None:
         b_eq=np.eye(1 + k)[0],
         bounds=np.stack([np.zeros_like(most), most], axis=1),
         method="highs-ds",
-        options={"primal_feasibility_tolerance": TOLERANCE},
+        # Few rows and all of them dense: there is nothing to simplify before.
+        options={"primal_feasibility_tolerance": TOLERANCE, "presolve": False},
     )
     if result.x is None:
         return None

@@ -83,20 +83,21 @@ class Search:
         weights = near(self.control.readings.values, clamp=clamp or not is_linear)
         if weights is None:
             return Found(None, np.inf)
-        if is_linear:
+        if is_linear or not list(wishes.each()):
             return Found(self._recipe(weights), 0.0)
         return self._approached(wishes, weights, partial(near, clamp=True), thorough=thorough)
 
     def _approached(self, wishes: Wishes, weights: Weights, near: Near, *, thorough: bool) -> Found:
-        """By steps from the linear mix; nearly always those materials do that it has, and a step among all takes ten times as long."""
-        mixes = Linearised(self._recipe, self.control.mixer, self.control.looks)
+        """By steps from the linear mix; nearly always those materials do that it has, and a step among all takes several times as long."""
+        control = self.control
+        mixes = Linearised(wishes, self._recipe, control.mixer, control.looks, self.blend)
         names = self.control.library.names
         known = self.like.dense(names).any(axis=0) if isinstance(self.like, Recipe) else 0
         among = np.flatnonzero(known + weights)
-        found, missed = mixes.approach(wishes, weights, near, among, draft=self.draft)
+        found, missed = mixes.approach(weights, near, among, draft=self.draft)
         if missed > 1 and thorough and not self.draft:
             everything = np.arange(len(weights))
-            found, missed = mixes.approach(wishes, weights, near, everything)
+            found, missed = mixes.approach(weights, near, everything)
         return Found(self._recipe(found), missed)
 
     def _recoloured(self, wishes: Wishes) -> Recipe | None:

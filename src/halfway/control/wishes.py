@@ -65,6 +65,10 @@ class Wishes:
         asked = [attribute(name).group for _, name, _ in self.each()]
         return [group for group in ("reflections", "colour") if group not in asked]
 
+    def instruments(self) -> set[str]:
+        """Those that read what is asked for."""
+        return {each for _, name, _ in self.each() for each in attribute(name).instruments}
+
     def only(self, name: str) -> "Wishes":
         """The exact one called ``name``, if there is one."""
         return Wishes({n: t for n, t in self.exact.items() if n == name})

@@ -1,7 +1,7 @@
 """What instruments read off a table, and the attributes that are functions of it: numbers that people use of a material."""
 
 from .attribute import Attribute, Condition
-from .readings import Readings, read_table
+from .readings import Reader, Readings, read_table
 from .registry import (
     ATTRIBUTES,
     attribute,
@@ -16,6 +16,7 @@ __all__ = [
     "ATTRIBUTES",
     "Attribute",
     "Condition",
+    "Reader",
     "Readings",
     "attribute",
     "attributes",

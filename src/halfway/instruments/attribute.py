@@ -58,6 +58,11 @@ class Attribute(ABC):
         """Whether it is one number, which may be more or less than another."""
         return True
 
+    @property
+    @abstractmethod
+    def instruments(self) -> tuple[str, ...]:
+        """Those whose readings it is a function of."""
+
     @abstractmethod
     def of(self, readings: Reading) -> Numbers:
         """The values, one of each material; NaN where there is none."""
@@ -102,6 +107,10 @@ class Sum(Attribute):
 
     instrument: str
 
+    @property
+    def instruments(self) -> tuple[str, ...]:
+        return (self.instrument,)
+
     def of(self, readings: Reading) -> Numbers:
         return _luminance(readings, self.instrument)
 
@@ -115,6 +124,10 @@ class Ratio(Attribute):
 
     over: Mapping[str, float]
     under: Mapping[str, float]
+
+    @property
+    def instruments(self) -> tuple[str, ...]:
+        return (*self.over, *self.under)
 
     def of(self, readings: Reading) -> Numbers:
         over, under = (
@@ -133,6 +146,10 @@ class Lab(Attribute):
     """A coordinate of CIELAB, 0 to 2, of the colour at 45:0. Once L* is given, a* says what X is and b* what Z is."""
 
     coordinate: int
+
+    @property
+    def instruments(self) -> tuple[str, ...]:
+        return ("colour",)
 
     def of(self, readings: Reading) -> Numbers:
         x, y, z = np.moveaxis(response(to_relative_xyz(readings[..., _PLACES["colour"], :])), -1, 0)
@@ -159,8 +176,13 @@ class Width(Attribute):
     with roughness alpha the width is atan(alpha).
     """
 
+    @property
+    def instruments(self) -> tuple[str, ...]:
+        return PROFILE_NAMES
+
     def of(self, readings: Reading) -> Numbers:
-        energy = np.einsum("ji,...ic,c->...j", _ENERGY, readings, LUMINANCE)
+        profile = readings[..., [_PLACES[name] for name in PROFILE_NAMES], :]
+        energy = np.einsum("ji,...ic,c->...j", _ENERGY, profile, LUMINANCE)
         half = energy[..., -1] / 2
         j = np.maximum((energy >= half[..., None]).argmax(axis=-1), 1)
         before, after = (
@@ -175,17 +197,18 @@ class Width(Attribute):
         j = int(np.clip(np.searchsorted(PROFILE, np.radians(target)), 1, len(PROFILE) - 1))
         share = (np.radians(target) - PROFILE[j - 1]) / (PROFILE[j] - PROFILE[j - 1])
         within = (1 - share) * _ENERGY[j - 1] + share * _ENERGY[j]
-        return [Condition(np.outer(_ENERGY[-1] / 2 - within, LUMINANCE), 0.0)]
+        halves = zip(PROFILE_NAMES, _ENERGY[-1] / 2 - within, strict=True)
+        return [Condition(luminance_of(dict(halves)), 0.0)]
 
 
-def _energy() -> Float64[np.ndarray, "n_profile n_instruments"]:
-    """E at each node of the profile, in terms of the readings."""
+def _energy() -> Float64[np.ndarray, "n_profile n_profile"]:
+    """E at each node of the profile, in terms of the profile."""
     measure = np.sin(PROFILE) * np.cos(PROFILE)
     halves = np.diff(PROFILE)[:, None] / 2
     steps = halves * (np.eye(len(PROFILE))[1:] + np.eye(len(PROFILE))[:-1]) * measure
-    energy = np.zeros((len(PROFILE), len(INSTRUMENTS)))
-    energy[1:, [_PLACES[name] for name in PROFILE_NAMES]] = steps.cumsum(axis=0)
-    energy[:, _PLACES[PROFILE_NAMES[-1]]] -= energy.sum(axis=1)
+    energy = np.zeros((len(PROFILE), len(PROFILE)))
+    energy[1:] = steps.cumsum(axis=0)
+    energy[:, -1] -= energy.sum(axis=1)
     return energy
 
 
@@ -199,6 +222,10 @@ class BodyColour(Attribute):
     @property
     def is_number(self) -> bool:
         return False
+
+    @property
+    def instruments(self) -> tuple[str, ...]:
+        return ("body",)
 
     def of(self, readings: Reading) -> Float64[np.ndarray, "*k 3"]:
         return readings[..., _PLACES["body"], :]

@@ -4,11 +4,13 @@ Everything that is said of a material is a function of these few numbers. Each i
 linear mix are the mix of the readings (exactly where the materials are measured on the same cells).
 """
 
+from collections.abc import Collection
 from dataclasses import dataclass
 from functools import lru_cache, partial
+from typing import NamedTuple
 
 import numpy as np
-from jaxtyping import Float, Float64
+from jaxtyping import Float, Float64, Int
 
 from ..brdf import TabularBrdf, quadrature
 from ..errors import RecipeError
@@ -17,7 +19,7 @@ from ..library import Library
 from ..recipes import Blend
 from ..tasks import HERE, Work
 from .attribute import Reading
-from .functionals import VERSION, functionals
+from .functionals import INSTRUMENTS, VERSION, functionals
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,6 +58,42 @@ class Readings:
         return np.einsum("c...n,nfc->...fc", weights[..., used], few)
 
 
+class Reader(NamedTuple):
+    """Some instruments at tables that are measured wherever their grid is, of which they need some columns.
+
+    A column is all theta_h where the other angles are the same.
+    """
+
+    columns: Int[np.ndarray, " n_columns"]
+    which: list[int]
+    """Of `INSTRUMENTS`."""
+    functionals: list[quadrature.Functional]
+    """Of these columns, theta_h first."""
+
+    @classmethod
+    def of(cls, names: Collection[str], grid: Grid) -> "Reader":
+        """The instruments of these names, at tables on ``grid``."""
+        which = [i for i, name in enumerate(INSTRUMENTS) if name in names]
+        rows = [_of_grid(grid)[i] for i in which]
+        n = grid.size // grid.axis("theta_h").size
+        columns = np.unique(np.concatenate([row.cells for row in rows]) % n)
+        few = [
+            row._replace(cells=row.cells // n * len(columns) + columns.searchsorted(row.cells % n))
+            for row in rows
+        ]
+        return cls(columns, which, few)
+
+    def read(
+        self, values: Float[np.ndarray, "*k 3 p"]
+    ) -> Float64[np.ndarray, "*k n_instruments 3"]:
+        """The readings of tables of which these columns are given; NaN of other instruments."""
+        *many, _, _ = values.shape
+        readings = np.full((len(INSTRUMENTS), *many, 3), np.nan)
+        channels = values.reshape(-1, values.shape[-1])
+        readings[self.which] = _read(self.functionals, channels).reshape(-1, *many, 3)
+        return np.moveaxis(readings, 0, -2)
+
+
 def read_table(table: TabularBrdf) -> Reading:
     """The readings of a table; of one that depends on phi_h, as an instrument reads the mean over turns of the sample."""
     table = table.turned_mean()
@@ -84,4 +122,13 @@ def _read(
 
 @lru_cache(maxsize=4)  # 5 MB each on the MERL grid
 def _of_grid(grid: Grid) -> list[quadrature.Functional]:
-    return functionals(grid, grid.mask())
+    """Of tables that are measured wherever their grid is; of their mean over phi_h, if it has that."""
+    if grid.is_isotropic:
+        return functionals(grid, grid.mask())
+    axis = grid.axes.index(grid.axis("phi_h"))
+    n = grid.shape[axis]
+    turned = np.moveaxis(np.arange(grid.size).reshape(grid.shape), axis, -1).reshape(-1, n)
+    return [
+        quadrature.Functional(turned[row.cells].ravel(), np.repeat(row.weights / n, n))
+        for row in _of_grid(grid.without("phi_h"))
+    ]

@@ -6,11 +6,12 @@ where materials are smooth. There every cell has a value, an unmeasured one that
 a picture is two products with sparse matrices.
 """
 
+from collections.abc import Callable
 from functools import lru_cache, partial
 from typing import Any
 
 import numpy as np
-from jaxtyping import Float, Float32
+from jaxtyping import Float, Float32, Float64, Int
 
 from ..brdf import TabularBrdf, gloss, tabulate
 from ..halfdiff import Grid
@@ -25,6 +26,9 @@ N_PHI_H = 24
 N_KEPT = 256
 """Tables kept in memory: .3 MB each, and as much again twice for body and gloss; fewer where they are larger."""
 
+WIDER = 0.01
+"""Of the logarithm of a width: by how much one is made wider to see what that changes."""
+
 
 def small_grid(grid: Grid) -> Grid:
     """The grid of the small tables of materials on ``grid``."""
@@ -34,22 +38,35 @@ def small_grid(grid: Grid) -> Grid:
     return Grid.anisotropic(48, round(N_PHI_H * period / (2 * np.pi)), 8, 10, period=period)
 
 
-class SmallTables:
-    """The small tables of a library, read when they are asked for."""
+class SmallMixes:
+    """Mixes of small tables, or of some columns of them: a column is all theta_h where the other angles are the same.
 
-    def __init__(self, library: Library, *, work: Work = HERE) -> None:
-        self._library = library
-        self.grid = small_grid(library.grid)
-        n_kept = N_KEPT * SMALL_GRID.size // self.grid.size
-        self._row = lru_cache(n_kept)(partial(_kept, library, work))
-        self._parts = lru_cache(n_kept)(self._parted)
+    ``row`` and ``parts`` have the tables of materials, by their place in the library, and their body and gloss.
+    """
 
-    def __reduce__(self) -> tuple[Any, ...]:
-        """They travel without what they keep."""
-        return SmallTables, (self._library,)
+    def __init__(
+        self,
+        row: Callable[[int], Float32[np.ndarray, "3 p"]],
+        parts: Callable[[int], gloss.Gloss],
+        grid: Grid,
+    ) -> None:
+        self._row, self._parts = row, parts
+        self.grid = grid
 
-    def _parted(self, i: int) -> gloss.Gloss:
-        return gloss.Gloss.of(self._row(i), self.grid)
+    def on(self, columns: Int[np.ndarray, " n"]) -> "SmallMixes":
+        """The same on these columns alone."""
+        n = self.grid.axis("theta_h").size
+
+        def row(i: int) -> Float32[np.ndarray, "3 p"]:
+            whole = self._row(i).reshape(3, n, -1)
+            return np.take(whole, columns, axis=-1).reshape(3, -1)
+
+        def parts(i: int) -> gloss.Gloss:
+            whole = self._parts(i)
+            body, lobe = (np.take(each, columns, axis=-1) for each in whole[:2])
+            return gloss.Gloss(body, lobe, whole.width)
+
+        return SmallMixes(lru_cache(N_KEPT)(row), lru_cache(N_KEPT)(parts), self.grid)
 
     def mix(
         self, weights: Float[np.ndarray, "3 k N"], blend: Blend
@@ -65,6 +82,66 @@ class SmallTables:
             return np.stack(list(mixes), axis=1)
         mapped = blend.mapping.to(np.stack([self._row(i) for i in used], axis=1))
         return blend.mapping.back(few.astype(np.float32) @ mapped)
+
+    def about(
+        self, weights: Float64[np.ndarray, " N"], blend: Blend, among: Int[np.ndarray, " n"]
+    ) -> tuple[Float32[np.ndarray, "3 p"], Float32[np.ndarray, "n 3 p"]]:
+        """The small table of a mix with the same weights in every channel, and how it changes towards each material ``among``.
+
+        About weights w, of materials g_i that are stretched to the width s where the blend aligns,
+
+            f = m^-1(M)        M = sum_i w_i m(g_i)        log s = sum_i w_i log s_i
+
+            d/de f((1 - e) w + e e_k) = (m^-1)'(M) (m(g_k) - M + log(s_k / s) dM/dlog s)
+
+        All that are in the mix are among them.
+        """
+        few = weights[among]
+        log_widths = self._log_widths(among, blend)
+        log_width = float(few @ log_widths)
+        mapped = self._mapped(among, blend, log_width)
+        mean = _mean(few, mapped)
+        used = few > 0
+        wider = _mean(few[used], self._mapped(among[used], blend, log_width + WIDER))
+        by_width = (log_widths - log_width).astype(np.float32) / WIDER
+        towards = mapped - mean
+        towards += by_width[:, None, None] * (wider - mean)
+        return blend.mapping.back(mean), blend.mapping.slope(mean) * towards
+
+    def _log_widths(self, which: Int[np.ndarray, " n"], blend: Blend) -> Float64[np.ndarray, " n"]:
+        """The logarithms of the widths of highlights; 0 where the blend leaves them as they are."""
+        if not blend.aligns:
+            return np.zeros(len(which))
+        return np.log([self._parts(i).width for i in which.tolist()])
+
+    def _mapped(
+        self, which: Int[np.ndarray, " n"], blend: Blend, log_width: float
+    ) -> Float32[np.ndarray, "n 3 p"]:
+        """Materials in the blend's mapping, all of one width where it aligns."""
+        if blend.aligns:
+            width = float(np.exp(log_width))
+            tables = [self._parts(i).stretched(width, self.grid) for i in which.tolist()]
+        else:
+            tables = [self._row(i) for i in which.tolist()]
+        return blend.mapping.to(np.stack(tables).reshape(len(tables), 3, -1))
+
+
+class SmallTables(SmallMixes):
+    """The small tables of a library, read when they are asked for."""
+
+    def __init__(self, library: Library, *, work: Work = HERE) -> None:
+        self._library = library
+        grid = small_grid(library.grid)
+        n_kept = N_KEPT * SMALL_GRID.size // grid.size
+        row = lru_cache(n_kept)(partial(_kept, library, work))
+        super().__init__(row, lru_cache(n_kept)(self._parted), grid)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """They travel without what they keep."""
+        return SmallTables, (self._library,)
+
+    def _parted(self, i: int) -> gloss.Gloss:
+        return gloss.Gloss.of(self._row(i), self.grid)
 
     def of(self, recipe: Recipe) -> Float32[np.ndarray, "3 p"]:
         """The small table of a recipe."""
@@ -82,6 +159,12 @@ class SmallTables:
         """Body colours of k mixes, 1/sr."""
         cells = np.flatnonzero(body_mask(self.grid))
         return self.mix(weights, blend)[..., cells].mean(axis=-1, dtype=np.float64).T
+
+
+def _mean(
+    weights: Float64[np.ndarray, " n"], mapped: Float32[np.ndarray, "n 3 p"]
+) -> Float32[np.ndarray, "3 p"]:
+    return np.tensordot(weights.astype(np.float32), mapped, axes=1)
 
 
 def _kept(library: Library, work: Work, i: int) -> Float32[np.ndarray, "3 p"]:

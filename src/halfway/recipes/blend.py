@@ -1,5 +1,6 @@
 """How the weighted materials of a recipe become one."""
 
+from collections.abc import Callable
 from enum import StrEnum
 from typing import NamedTuple
 
@@ -14,6 +15,8 @@ class Mapping(NamedTuple):
     name: str
     to: np.ufunc
     back: np.ufunc
+    slope: Callable[[np.ndarray], np.ndarray]
+    """The derivative of ``back``, at mapped values."""
     unit: str
     """Of mapped values."""
 
@@ -52,10 +55,14 @@ class Blend(StrEnum):
         )
 
 
-_ROOT = Mapping("root", np.sqrt, np.square, "sr^-1/2")
+def _twice(mapped: np.ndarray) -> np.ndarray:
+    return 2 * mapped
+
+
+_ROOT = Mapping("root", np.sqrt, np.square, _twice, "sr^-1/2")
 _MAPPINGS = {
-    Blend.LINEAR: Mapping("linear", np.positive, np.positive, "1/sr"),
+    Blend.LINEAR: Mapping("linear", np.positive, np.positive, np.ones_like, "1/sr"),
     Blend.ROOT: _ROOT,
-    Blend.LOG: Mapping("log", np.log1p, np.expm1, "log(1 + f sr)"),
+    Blend.LOG: Mapping("log", np.log1p, np.expm1, np.exp, "log(1 + f sr)"),
     Blend.LOBES: _ROOT,
 }
