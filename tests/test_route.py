@@ -14,7 +14,7 @@ from halfway.errors import OutsideHullError, RecipeError, SpaceError
 from halfway.halfdiff import Grid
 from halfway.library import LibraryRef, ProceduralLibrary
 from halfway.models import builtin
-from halfway.recipes import Mixer
+from halfway.recipes import Blend, Mixer
 from halfway.recipes.mixing import N_AT_ONCE
 from halfway.space import make_space
 
@@ -176,10 +176,11 @@ def test_steps_and_components_have_limits(small_library, space, pca):
         make_space("cubic", small_library)
 
 
-@pytest.mark.parametrize("n", [1, 3, 4, 5, 8, 9])
-def test_the_first_mixes_and_the_compiled_ones_have_the_same_bits(small_library, n):
+@pytest.mark.parametrize("blend", [Blend.LINEAR, Blend.LOBES])
+@pytest.mark.parametrize("n", [1, 2, 3, 4, 5, 8, 9])
+def test_the_first_mixes_and_the_compiled_ones_have_the_same_bits(small_library, n, blend):
     weights = np.random.default_rng(n).dirichlet(np.ones(n), 3)
-    recipe = Recipe(LibraryRef("small"), small_library.names[:n], weights)
+    recipe = Recipe(LibraryRef("small"), small_library.names[:n], weights, blend)
     mixer = Mixer(small_library)
     tables = [mixer.mix(recipe).values for _ in range(N_AT_ONCE + 1)]
     np.testing.assert_array_equal(tables[-1], tables[0])

@@ -55,8 +55,8 @@ class Gloss(NamedTuple):
 
     body: Lobes
     """1/sr; NaN where the table is unmeasured."""
-    gloss: Lobes
-    """1/sr; unmeasured cells have what their neighbour nearer to the normal has."""
+    gloss: Float32[np.ndarray, "3 n_rows n"]
+    """1/sr, from the normal to the foot, where it is 0; unmeasured cells have what their neighbour nearer to the normal has."""
     width: float
     """Of the lobe, as a slope, highlight or not; 1 where the table is flat."""
 
@@ -64,19 +64,23 @@ class Gloss(NamedTuple):
     def of(cls, values: Table, grid: Grid) -> "Gloss":
         """The parts of a table, shape (3, *grid.shape) or (3, p)."""
         lobes = to_lobes(values, grid)
-        lowest = np.fmin.accumulate(lobes, axis=1)
-        np.nan_to_num(lowest, copy=False, nan=0.0)
+        lowest = lobes.copy()
+        for row in range(1, lobes.shape[1]):  # eight times as fast as `np.fmin.accumulate`
+            np.fmin(lowest[:, row - 1], lowest[:, row], out=lowest[:, row])
+        np.copyto(lowest, 0, where=np.isnan(lowest))
         gloss = lowest - lowest[:, -1:]
         steepness = _steepness(grid)
         profile = (gloss.sum(axis=0) @ steepness).astype(np.float64)
         foot, width = _foot_and_width(profile, grid)
-        gloss -= gloss[:, foot : foot + 1].copy()
+        gloss = gloss[:, : foot + 1] - gloss[:, foot : foot + 1]
         np.maximum(gloss, 0, out=gloss)
         peak = float(lowest[:, 0].sum(axis=0) @ steepness)
         contrast = (profile[0] - profile[foot]) / (peak or 1.0)
         share = np.clip((contrast - FAINT) / (CLEAR - FAINT), 0, 1)
         gloss *= np.float32(share)
-        return cls(np.maximum(lobes - gloss, 0), gloss, width)
+        body = lobes.copy()
+        body[:, : foot + 1] -= gloss
+        return cls(np.maximum(body, 0, out=body), gloss, width)
 
     def stretched(self, width: float, grid: Grid) -> Lobes:
         """The table whose highlight is this wide."""
@@ -108,11 +112,12 @@ class Stretch(NamedTuple):
         return cls(lower, *(share.astype(np.float32)[:, None] for share in shares))
 
     def rows(
-        self, gloss: Float32[np.ndarray, "*c n_theta_h n"], part: slice
-    ) -> Float32[np.ndarray, "*c n_rows n"]:
+        self, gloss: Float32[np.ndarray, "*c n_rows n"], part: slice
+    ) -> Float32[np.ndarray, "*c n_stretched n"]:
         """Some rows of a gloss, stretched."""
-        lower = self.lower[part]
-        upper = np.minimum(lower + 1, len(self.lower) - 1)
+        last = gloss.shape[-2] - 1
+        lower = np.minimum(self.lower[part], last)
+        upper = np.minimum(lower + 1, last)
         stretched, upper = np.take(gloss, lower, axis=-2), np.take(gloss, upper, axis=-2)
         stretched *= self.near[part]
         upper *= self.far[part]

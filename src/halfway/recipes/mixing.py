@@ -177,51 +177,62 @@ def aligned_mean(
     _, n_rows, n = parts[0].body.shape
     values = np.empty((3, n_rows, n), np.float32)
     step = max(1, _ALIGNED_CHUNK // n)
-    for channel in range(3):
-        used = np.flatnonzero(weights[channel]).tolist()
+    for channel, each in enumerate(weights.astype(np.float32)):
+        lobes = [
+            _Lobe(parts[i].body[channel], parts[i].gloss[channel], stretches[i], each[i])
+            for i in np.flatnonzero(each).tolist()
+        ]
         for start in range(0, n_rows, step):
             part = slice(start, start + step)
             total = values[channel, part]
             total[:] = 0
-            for i in used:
-                body, lobe = parts[i].body[channel, part], parts[i].gloss[channel]
-                weight = np.float32(weights[channel, i])
-                add(total, body, lobe, stretches[i], part, mapping, weight)
+            add(total, lobes, part, mapping)
             mapping.back(total, out=total)
     return values.reshape(3, -1)
 
 
+class _Lobe(NamedTuple):
+    """One channel of a material in a mix."""
+
+    body: np.ndarray
+    gloss: np.ndarray
+    stretch: gloss.Stretch
+    weight: np.float32
+
+    def rows(self, part: slice) -> tuple[np.ndarray, ...]:
+        """What the compiled loops take of some rows."""
+        lower, near, far = (each[part] for each in self.stretch)
+        return self.body[part], self.gloss, lower, near, far
+
+
 def _add_stretched(
-    total: np.ndarray,
-    body: np.ndarray,
-    lobe: np.ndarray,
-    stretch: gloss.Stretch,
-    part: slice,
-    mapping: BlendMapping,
-    weight: np.float32,
+    total: np.ndarray, lobes: list[_Lobe], part: slice, mapping: BlendMapping
 ) -> None:
-    """Add some rows of one material, mapped and weighted, to a sum."""
-    stretched = stretch.rows(lobe, part)
-    stretched += body
-    mapping.to(stretched, out=stretched)
-    stretched *= weight
-    total += stretched
+    """Add some rows of materials, mapped and weighted, to a sum."""
+    for lobe in lobes:
+        stretched = lobe.stretch.rows(lobe.gloss, part)
+        stretched += lobe.body[part]
+        mapping.to(stretched, out=stretched)
+        stretched *= lobe.weight
+        total += stretched
 
 
 def _compiled_adding() -> Callable[..., None]:
-    from .kernel import add_stretched_roots  # numba takes a second to load
+    from .kernel import add_four_stretched_roots, add_stretched_roots  # numba takes a second
 
     def add(
         total: np.ndarray,
-        body: np.ndarray,
-        lobe: np.ndarray,
-        stretch: gloss.Stretch,
+        lobes: list[_Lobe],
         part: slice,
         mapping: BlendMapping,  # noqa: ARG001 (square roots)
-        weight: np.float32,
     ) -> None:
-        lower, near, far = (each[part] for each in stretch)
-        add_stretched_roots(total, body, lobe, lower, near, far, weight)
+        while len(lobes) > 2:  # four at once take as long as three
+            four, lobes = lobes[:4], lobes[4:]
+            four += [four[-1]._replace(weight=np.float32(0))] * (4 - len(four))
+            rows = zip(*(lobe.rows(part) for lobe in four), strict=True)
+            add_four_stretched_roots(total, *rows, tuple(lobe.weight for lobe in four))
+        for lobe in lobes:
+            add_stretched_roots(total, *lobe.rows(part), lobe.weight)
 
     return add
 
