@@ -1,7 +1,8 @@
 """What the benchmarks share: races in one run, and the one table at the end.
 
 A figure is a ratio. Both sides are timed in turn, round by round, so that what else the machine does hits both alike; the ratio is
-the median over the rounds. The table is printed when all is done, and written to figures.json for `table.py`.
+the median over the rounds. The table is printed when all is done, and written to figures.json for `table.py`; what was not run
+stays there as it was.
 """
 
 import json
@@ -9,7 +10,8 @@ import os
 import platform
 import time
 from collections.abc import Callable, Iterator
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -30,6 +32,7 @@ class Figure:
     """``<= 1.5`` or ``>= 10``, where one was set."""
     note: str = ""
     """What one side takes, as measured."""
+    date: str = field(default_factory=partial(time.strftime, "%Y-%m-%d"))
 
     @property
     def missed(self) -> bool:
@@ -81,9 +84,12 @@ def figures(request: pytest.FixtureRequest) -> Iterator[Figures]:
         "machine": platform.machine(),
         "python": platform.python_version(),
     }
-    about["date"] = time.strftime("%Y-%m-%d")
+    rows = {
+        (row["what"], row["compared"]): row
+        for row in [*json.loads(FIGURES.read_text())["figures"], *map(asdict, found)]
+    }
     FIGURES.write_text(
-        json.dumps({"about": about, "figures": [asdict(f) for f in found]}, indent=1)
+        json.dumps({"about": about, "figures": list(rows.values())}, indent=1) + "\n"
     )
 
 

@@ -17,16 +17,14 @@ def main() -> None:
 
 def table(found: dict) -> str:
     """The figures as a Markdown table, and where they come from."""
-    lines = ["| what | compared | ratio | goal | as measured |", "|---|---|---|---|---|"]
+    lines = ["| what | compared | ratio | goal | as measured | on |", "|---|---|---|---|---|---|"]
     lines += [
-        f"| {f['what']} | {f['compared']} | {f['ratio']:.3g} | {f['goal']} | {f['note']} |"
+        f"| {f['what']} | {f['compared']} | {f['ratio']:.3g} | {f['goal']} | {f['note']} | {f['date']} |"
         for f in found["figures"]
     ]
     about = found["about"]
     lines.append("")
-    lines.append(
-        f"{about['cores']} cores, {about['machine']}, Python {about['python']}, {about['date']}.\n"
-    )
+    lines.append(f"{about['cores']} cores, {about['machine']}, Python {about['python']}.\n")
     return "\n".join(lines)
 
 
