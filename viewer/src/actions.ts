@@ -109,6 +109,16 @@ export class Actions {
     if (this.store.get().point !== null) this.store.set({ atPoint, recipe: fromDocument(atPoint.recipe) });
   };
 
+  /** Draw what is to be saved: the live picture gets no better meanwhile. */
+  shoot = async <T>(draw: () => Promise<T>): Promise<T> => {
+    this.store.set({ shooting: true });
+    try {
+      return await draw();
+    } finally {
+      this.store.set({ shooting: false });
+    }
+  };
+
   compareWith = (compare: string): void => {
     const stop = comparedStop(compare);
     const kept = comparedKept({ ...this.store.get(), compare });
