@@ -80,3 +80,26 @@ def test_a_video_has_all_frames(explorer: Explorer) -> None:
     width, height, seconds = elsewhere.evaluate(play, list(content))
     assert (width, height) == (48, 48)
     np.testing.assert_allclose(seconds, 0.2, atol=0.001)
+
+
+def test_the_live_picture_rests_while_a_film_is_drawn(explorer: Explorer) -> None:
+    page = explorer.page
+    page.set_viewport_size({"width": 1440, "height": 900})
+    explorer.open(PAIR.replace("points", "studio") + "sphere")
+    explorer.wait_for_picture(1)
+    page.get_by_role("button", name="Film").click()
+    page.locator("[name=film-size]").fill("16")
+    page.locator("[name=motion]").select_option("turntable")
+    page.locator("[name=quality]").select_option("draft")
+    page.get_by_role("button", name="Save", exact=True).click()
+    samples = "document.querySelector('.material').dataset.samples"
+    drawn = "(n) => Number(/frame ([0-9]+) of 100/.exec(document.querySelector('.running').title)?.[1]) >= n"
+    page.wait_for_function(drawn, arg=2)
+    before = page.evaluate(samples)
+    # Its window may be closed meanwhile: the button says how far it is.
+    page.keyboard.press("Escape")
+    page.wait_for_function(drawn, arg=6)
+    assert page.evaluate(samples) == before
+    page.get_by_role("button", name="Film").click()
+    page.get_by_role("button", name="Stop", exact=True).click()
+    explorer.wait_for_picture(int(before) + 1)

@@ -8,6 +8,7 @@ import { clamp } from "./numbers";
 import { fromDocument, type Ingredient, only } from "./recipe";
 import { type Route, recipeAt } from "./route";
 import { type Kept, recipeOf } from "./shortlist";
+import { likeOf } from "./shown";
 import { type Linked, type Panel, type State, usualBlend, type Whereabouts } from "./state";
 import type { Store } from "./store";
 import { shortName } from "./title";
@@ -97,13 +98,25 @@ export class Actions {
       this.store.set({ numbers });
       return;
     }
-    const like = kept.find(({ recipe }) => recipe === asked.like)?.name;
-    const held = foundAs(like ?? shortName({ ...state, held: null }), asked.set, numbers.recipe);
+    const like = likeOf(state);
+    const recipe = like ? fromDocument(like) : state.recipe;
+    const own = kept.find((each) => each.recipe === asked.like)?.name;
+    const held = foundAs(own ?? shortName({ ...state, held: null, recipe }), asked.set, numbers.recipe);
     this.store.set({ numbers, held, recipe: recipeOf(held) });
   };
 
   setAtPoint = (atPoint: PositionView): void => {
     if (this.store.get().point !== null) this.store.set({ atPoint, recipe: fromDocument(atPoint.recipe) });
+  };
+
+  /** Draw what is to be saved: the live picture gets no better meanwhile. */
+  shoot = async <T>(draw: () => Promise<T>): Promise<T> => {
+    this.store.set({ shooting: true });
+    try {
+      return await draw();
+    } finally {
+      this.store.set({ shooting: false });
+    }
   };
 
   compareWith = (compare: string): void => {

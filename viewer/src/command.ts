@@ -3,7 +3,7 @@
 import { type Asked, HIGHLIGHT, written } from "./asked";
 import { recipeAt } from "./route";
 import type { State } from "./state";
-import { materialName } from "./title";
+import { fileName, materialName } from "./title";
 
 type Shown = Pick<
   State,
@@ -63,7 +63,10 @@ function find(shown: Shown, { like, set, loose }: Asked, file: string): string {
   if (loose) wishes.push(...HIGHLIGHT.map((name) => `--release ${name}`));
   const command = (what: string) =>
     `halfway find ${quoted(library.address)} --like ${quoted(what)} ${wishes.join(" ")} --blend ${held?.recipe.blend} --clamp -o ${quoted(file)}`;
-  if (like !== null) return command(`${kept.find(({ recipe }) => recipe === like)?.name ?? "recipe"}.json`);
+  if (like !== null) {
+    const own = kept.find(({ recipe }) => recipe === like)?.name ?? "recipe";
+    return command(`${fileName(own)}.json`);
+  }
   const near = `like.${suffixOf(shown)}`;
   if (point !== null) return `${mix(shown, near)} && ${command(near)}`;
   const [only, ...others] = shown.route ? recipeAt(shown.route, t) : [];

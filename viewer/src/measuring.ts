@@ -3,10 +3,8 @@
 import type { FoundView, RecipeDocument } from "./api/schema";
 import { HIGHLIGHT, type Wishes } from "./asked";
 import type { Context } from "./context";
-import { toDocument } from "./recipe";
 import { Refined } from "./refined";
-import { recipeAt } from "./route";
-import { shownDocument } from "./shown";
+import { likeOf, shownDocument } from "./shown";
 import { GRID, NUMBERS, type State } from "./state";
 
 /** Attributes that have a slider, in their order. */
@@ -47,13 +45,12 @@ export function isMeasured({ aside, map, asked }: Pick<State, "aside" | "map" | 
 
 /** Null where nobody wants to know, or what is asked about is not known yet. */
 function question(state: State): Question | null {
-  const { library, asked, recipe, route, t, point, atPoint } = state;
+  const { asked, recipe } = state;
   if (asked === null)
     return isMeasured(state) && recipe.length > 0
       ? { like: shownDocument(state), set: {}, release: [] }
       : null;
-  const there = point ? atPoint?.recipe : route && toDocument(library.name, recipeAt(route, t), route);
-  const like = asked.like ?? there;
+  const like = likeOf(state);
   return like ? { like, set: asked.set, release: asked.loose ? HIGHLIGHT : [] } : null;
 }
 

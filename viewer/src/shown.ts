@@ -4,6 +4,7 @@ import type { RecipeDocument } from "./api/schema";
 import { type Mixing, PLAIN, picturesMix } from "./blend";
 import { comparedKept } from "./compared";
 import { type Ingredient, toDocument } from "./recipe";
+import { recipeAt } from "./route";
 import type { State } from "./state";
 
 /** How what is shown is mixed. */
@@ -12,6 +13,12 @@ export function mixingOf({ held, atPoint, route }: Pick<State, "held" | "atPoint
 }
 
 export type Shown = Pick<State, "library" | "recipe" | "held" | "atPoint" | "route">;
+
+/** What is asked about: where nothing else is said, what is at the free point, or at t; null until that is known. */
+export function likeOf({ library, asked, point, atPoint, route, t }: State): RecipeDocument | null {
+  const there = point ? atPoint?.recipe : route && toDocument(library.name, recipeAt(route, t), route);
+  return asked?.like ?? there ?? null;
+}
 
 /** What is shown, as a document. */
 export function shownDocument(state: Shown): RecipeDocument {

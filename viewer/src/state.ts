@@ -105,6 +105,8 @@ export interface State extends View {
   readonly split: number;
   /** How many tables have come: who draws from them watches it. */
   readonly arrived: number;
+  /** Whether a picture or a film is being drawn to be saved: the live picture gets no better meanwhile. */
+  readonly shooting: boolean;
   /** Whether the pictures of all materials have come. */
   readonly pictured: boolean;
   readonly notices: readonly Notice[];
@@ -200,6 +202,7 @@ const NOTHING = {
   otherRoute: null,
   otherRecipe: [],
   arrived: 0,
+  shooting: false,
   pictured: false,
   notices: [],
   waiting: null,

@@ -4,7 +4,7 @@ import type { LibrarySummary } from "../src/api/schema";
 import { toCommand } from "../src/command";
 import { join } from "../src/route";
 import { fromText, keptOf, missingIn, toText } from "../src/shortlist";
-import { materialName } from "../src/title";
+import { fileName, materialName } from "../src/title";
 
 const LIBRARY = {
   name: "lab",
@@ -77,7 +77,7 @@ test("what was found for numbers is made by find, like a place on a route, a poi
   const held = { id: "found", name: "t, haze 2", note: "", recipe, link: "" };
   const asked = { like: null, set: { haze: 2, L: 41.234 }, loose: false };
   const shown = { ...ON_ROUTE, held, asked } as const;
-  const wished = "--set haze=2 --set L=41.2 --blend lobes --clamp -o 't, haze 2.binary'";
+  const wished = "--set haze=2 --set L=41.2 --blend lobes --clamp -o t-haze-2.binary";
   const [made, , rendered] = toCommand(shown).split(/ && (?=halfway (find|render))/);
   expect(made).toBe(
     "halfway route 'my files/lab.brdflib' a b --space paper --blend root --pace uniform --t 0.25 -o like",
@@ -103,6 +103,10 @@ test("what was found for numbers is made by find, like a place on a route, a poi
 
 test("one material alone is called by its name", () => {
   expect(materialName({ ...ON_ROUTE, recipe: [{ name: "b", weight: [1, 1, 1] }] })).toBe("b");
+});
+
+test("what a person wrote is a file's name, and one word of a shell", () => {
+  expect(fileName("yesterday's Grün, b -3.5/L 40")).toBe("yesterday-s-Grün-b--3.5-L-40");
 });
 
 test("a shortlist comes back from its file as it was", () => {

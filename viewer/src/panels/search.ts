@@ -18,7 +18,9 @@ class Search {
   readonly element: HTMLElement;
   // Another explorer of the same document has another list.
   private readonly id = `results-${Math.random().toString(36).slice(2)}`;
-  private readonly list = el("ul.results", { id: this.id, role: "listbox", hidden: true });
+  private readonly list = el("ul", { id: this.id, role: "listbox" });
+  private readonly taken = el("p.note", { role: "status" });
+  private readonly results = el("div.results", { hidden: true }, this.taken, this.list);
   private readonly input: HTMLInputElement;
   private matches: readonly string[] = [];
   private selected = 0;
@@ -39,10 +41,12 @@ class Search {
       onblur: () => this.close(),
       onkeydown: (event) => this.press(event),
     });
-    this.element = el("div.search", this.input, el("kbd", "/"), this.list);
+    this.element = el("div.search", this.input, el("kbd", "/"), this.results);
     context.store.watch(["query", "matches", "alike"], ({ query, matches, alike }) => {
       const isAsked = query.trim() !== "";
       this.open(isAsked);
+      this.taken.hidden = alike === null;
+      this.taken.textContent = alike && `What people find most like ${alike.to}`;
       this.fill(isAsked ? (matches ?? []) : [], alike?.distances === null ? COMPARING : NOTHING);
     });
   }
@@ -91,12 +95,12 @@ class Search {
     const marked = this.matches.length ? `${this.id}-${this.selected}` : "";
     this.input.setAttribute("aria-activedescendant", marked);
     const name = this.matches[this.selected] ?? null;
-    if (!this.list.hidden)
+    if (!this.results.hidden)
       this.context.store.set({ hovered: name, pointed: name === null ? null : materialAsGhost(name) });
   }
 
   private open(isOpen: boolean): void {
-    this.list.hidden = !isOpen;
+    this.results.hidden = !isOpen;
     this.input.setAttribute("aria-expanded", String(isOpen));
   }
 

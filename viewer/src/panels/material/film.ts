@@ -8,6 +8,7 @@ import { framesReel, videoReel } from "../../reel";
 import { materialName } from "../../title";
 import { putBehind } from "./picture";
 
+const TITLE = "Film";
 const SIZES = [16, 2160] as const;
 const LENGTHS = [0.1, 60] as const;
 /** Samples of each frame. */
@@ -19,8 +20,15 @@ export function filmButton(context: Context, panel: () => HTMLElement): HTMLElem
   const { read, fields } = settings();
   const save = el("button.button.main", { type: "button" }, "Save");
   const note = el("span.quiet", { role: "status" });
-  const form = popover("Film", ...fields, el("div.line", save, note));
+  const form = popover(TITLE, ...fields, el("div.line", save, note));
   const finish = (picture: OffscreenCanvas) => putBehind(picture, panel());
+  const open = iconButton("film", TITLE, () => form.togglePopover());
+  // The button says it too: the window may be closed meanwhile.
+  const say = (text: string) => {
+    note.textContent = text;
+    open.title = text ? `${TITLE}: ${text}` : TITLE;
+    open.classList.toggle("running", text !== "");
+  };
   let running: AbortController | null = null;
   save.addEventListener("click", async () => {
     running?.abort();
@@ -28,11 +36,10 @@ export function filmButton(context: Context, panel: () => HTMLElement): HTMLElem
     running = new AbortController();
     save.textContent = "Stop";
     const { kind, ...film } = read();
-    await saved(context, film, kind, { stopped: running.signal, finish, note });
+    await saved(context, film, kind, { stopped: running.signal, finish, say });
     running = null;
     save.textContent = "Save";
   });
-  const open = iconButton("film", "Film", () => form.togglePopover());
   context.store.watch(["route"], ({ route }) => {
     open.disabled = route === null;
   });
@@ -82,31 +89,31 @@ async function saved(
   {
     stopped,
     finish,
-    note,
+    say,
   }: {
     readonly stopped: AbortSignal;
     readonly finish: (picture: OffscreenCanvas) => void;
-    readonly note: HTMLElement;
+    readonly say: (text: string) => void;
   },
 ): Promise<void> {
   const { actions, store } = context;
   const start = performance.now();
   const tell = (done: number, of: number) => {
     const left = Math.ceil(((performance.now() - start) * (of - done)) / Math.max(done, 1) / 1000);
-    note.textContent = `frame ${done + 1} of ${of}${done > 1 ? `, about ${left} s left` : ""}`;
+    say(`frame ${done + 1} of ${of}${done > 1 ? `, about ${left} s left` : ""}`);
   };
-  note.textContent = `${frameCount(film)} frames …`;
+  say(`${frameCount(film)} frames …`);
   try {
     const reel = kind === "video" ? await videoReel(film.size, RATE) : framesReel();
     if (reel === null) throw new Error("this browser encodes no video: take the frames.");
     const name =
       film.motion === "turntable" ? `${materialName(store.get())}-turning` : store.get().stops.join("-to-");
-    await shoot(context, film, reel, { tell, stopped, finish });
+    await actions.shoot(() => shoot(context, film, reel, { tell, stopped, finish }));
     download(await reel.end(), `${name}${reel.suffix}`);
     actions.say("material", "film", null);
   } catch (error) {
     if (!stopped.aborted)
       actions.say("material", "film", `The film could not be saved: ${(error as Error).message}`);
   }
-  note.textContent = "";
+  say("");
 }

@@ -65,7 +65,7 @@ export class LivePicture {
       this.quality.materialChanged(performance.now());
       this.next();
     });
-    store.watch(["arrived", "mixing"], this.next);
+    store.watch(["arrived", "mixing", "shooting"], this.next);
     tables.onProgress = this.next;
     // All pictures went with the context, and begin again.
     sayWhenLost(context, "material", canvas, () => this.look());
@@ -141,7 +141,12 @@ export class LivePicture {
     const state = this.context.store.get();
     const names = shownNames(state);
     quality.asked(this.isDone(), now);
-    const { pieces, piece, target } = quality.plan(now, this.needed(names));
+    const needed = this.needed(names);
+    if (state.shooting && needed.unseen === 0) {
+      this.show(state, names);
+      return;
+    }
+    const { pieces, piece, target } = quality.plan(now, needed);
     if (this.fit()) painter.look(state, this.environment);
     const added = painter.improve(names, pieces, piece, target);
     // Then what the slider meets next, at a few samples: crossing into it shows at once.

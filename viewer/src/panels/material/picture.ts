@@ -31,9 +31,10 @@ export function pictureButton(context: Context, panel: () => HTMLElement): HTMLE
     save.disabled = true;
     try {
       const pixels = clamp(Math.round(size.valueAsNumber || max / 4), min, max);
-      const picture = await photographed(context, pixels, (share) => {
+      const tell = (share: number) => {
         note.textContent = `${Math.floor(100 * share)} %`;
-      });
+      };
+      const picture = await context.actions.shoot(() => photographed(context, pixels, tell));
       if (background === "backdrop") putBehind(picture, panel());
       download(await picture.convertToBlob(), pictureName(context));
       context.actions.say("material", "picture", null);

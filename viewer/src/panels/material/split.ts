@@ -1,9 +1,10 @@
 // The line between two materials in one picture: the present one to the left, the compared one to the right.
 
-import { comparedKept, comparedStop } from "../../compared";
+import { comparedKept, comparedSpace, comparedStop } from "../../compared";
 import type { Context } from "../../context";
 import { el } from "../../dom";
 import { clamp } from "../../numbers";
+import { shortName } from "../../title";
 
 const STEP = 0.02;
 /** The line stays that far from the edges. */
@@ -32,11 +33,12 @@ export function splitHandle({ store }: Context): HTMLElement {
     },
   });
   handle.append(left, right);
-  store.watch(["space", "compare", "split", "held", "kept"], ({ space, compare, split, held, kept }) => {
+  store.watch(["space", "compare", "split", "held", "kept", "recipe"], (state) => {
+    const { space, compare, split, kept } = state;
     handle.hidden = compare === "";
-    left.textContent = held?.name ?? space;
+    left.textContent = comparedSpace(compare) === null ? shortName(state) : space;
     right.textContent = comparedKept({ compare, kept })?.name ?? comparedStop(compare) ?? compare;
-    handle.style.left = `${100 * split}%`;
+    handle.style.setProperty("--split", String(split));
     handle.setAttribute("aria-valuenow", String(Math.round(100 * split)));
   });
   return handle;

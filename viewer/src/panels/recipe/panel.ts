@@ -33,7 +33,7 @@ export function recipePanel(context: Context): HTMLElement {
     if (items.some((item, i) => list.children[i] !== item) || list.children.length !== items.length)
       list.replaceChildren(...items);
     const many = recipe.length ? `${recipe.length} materials` : "";
-    note.textContent = recipe.length === 1 && !scale ? "one measured material" : many;
+    note.textContent = recipe.length === 1 && !scale ? "one material" : many;
   });
   const [numbers, aside] = [numberSliders(context), asideChoice(context)];
   context.store.watch(["aside"], ({ aside }) => {

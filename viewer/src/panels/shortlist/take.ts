@@ -5,6 +5,7 @@ import { strToU8, Zip, ZipDeflate } from "three/addons/libs/fflate.module.js";
 import type { Context } from "../../context";
 import { download, el, popover } from "../../dom";
 import { type Kept, toText } from "../../shortlist";
+import { fileName } from "../../title";
 import { FORMATS } from "../recipe/exports";
 
 export function takeAll(context: Context): HTMLElement {
@@ -74,7 +75,7 @@ async function zipped(
 function named(kept: readonly Kept[]): Map<string, Kept> {
   const names = new Map<string, Kept>();
   for (const each of kept) {
-    const plain = each.name.replaceAll(/[^\w.() -]+/g, "-");
+    const plain = fileName(each.name);
     let name = plain;
     for (let i = 2; names.has(name); i++) name = `${plain} (${i})`;
     names.set(name, each);
