@@ -8,15 +8,14 @@ from typing import Any
 
 import numpy as np
 import pytest
+from fits import NAMES, OPENPBR, a_fit
 from numpy.testing import assert_allclose
 
-from halfway.brdf.quality import Quality
 from halfway.errors import OutputError
 from halfway.export.fits import write_fit
 from halfway.export.gltf import to_glb, to_gltf
 from halfway.export.materialx import identifier
-from halfway.fit import Fit, Gltf, OpenPbr, Principled
-from halfway.fit.model import AnalyticModel
+from halfway.fit import Gltf, OpenPbr, Principled
 
 BYTES = {5126: 4, 5123: 2}
 COMPONENTS = {"SCALAR": 1, "VEC3": 3, "VEC4": 4}
@@ -27,10 +26,6 @@ EXTENSIONS = {
     "KHR_materials_clearcoat": {"clearcoatFactor", "clearcoatRoughnessFactor"},
     "KHR_materials_anisotropy": {"anisotropyStrength", "anisotropyRotation"},
 }
-
-
-def a_fit(model: AnalyticModel, name: str = "gold-paint 2") -> Fit:
-    return Fit(name, model, 0.01, Quality(40.0, 0.02), 0.003)
 
 
 PLAIN = Gltf(np.array([0.8, 0.4, 0.2]), metallic=0.3, roughness=0.4)
@@ -44,9 +39,6 @@ BRUSHED = Gltf(
     anisotropy_strength=0.5,
     anisotropy_rotation=1.25,
 )
-OPENPBR = OpenPbr(
-    np.array([0.12345, 0.5, 0.25]), 0.3, 0.25, np.array([1, 0.9, 0.8]), 0.33333, 1.75, 0.5, 0.25
-)  # fmt: skip
 
 
 @pytest.mark.parametrize(
@@ -89,10 +81,6 @@ def test_a_turned_tangent_is_a_node_of_its_own(tmp_path):
     assert_allclose(node.getInputValue("amount"), -30, rtol=1e-6)
     sources = [node.getConnectedNode(port).getCategory() for port in ("in", "axis")]
     assert sources == ["tangent", "normal"]
-
-
-NAMES = ["gold-paint", "my_gold", "001", "3M tape (v2)", "0_5", "-1", "金属", "銀", "é", "e\u0301", "", "_", "__", "a b", "a.b", "a:b", "a/b", "class",
-         "float", "Materials", "surface", "x" * 300, "line\nbreak", "\x1b[31m", "&<>\"'", "\udc80"]  # fmt: skip
 
 
 @pytest.mark.parametrize("name", NAMES)

@@ -5,8 +5,8 @@ from typing import Any
 
 import numpy as np
 import pytest
+from fits import NAMES, OPENPBR, a_fit
 from numpy.testing import assert_allclose
-from test_export_fits import NAMES, OPENPBR, a_fit
 
 from halfway.errors import OutputError
 from halfway.export.materialx import printable

@@ -45,6 +45,12 @@ def test_no_folder_is_imported_past_its_init(path: Path) -> None:
     assert past == []
 
 
+def test_no_test_imports_another() -> None:
+    line = re.compile(r"^ *(from|import) test_", re.MULTILINE)
+    tests = (ROOT / "tests").rglob("*.py")
+    assert [path.name for path in tests if line.search(path.read_text())] == []
+
+
 @pytest.mark.parametrize("path", FILES, ids=lambda path: str(path.relative_to(SOURCE)))
 def test_text_files_say_their_encoding(path: Path) -> None:
     """Before Python 3.15 Windows takes its own code page."""

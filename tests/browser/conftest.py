@@ -4,18 +4,22 @@ A console error fails the test: three.js logs a shader that does not compile and
 """
 
 import threading
-from base64 import b64decode
+from base64 import b64decode, b64encode
 from collections.abc import Callable, Generator, Iterator
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from functools import cache
+from io import BytesIO
+from pathlib import Path
 from typing import Any
+from zipfile import ZipFile
 
 import numpy as np
 import pytest
 import uvicorn
 from chromium import chromium
 from patience import PATIENCE, wait_until
+from PIL import Image
 from playwright.sync_api import Browser, BrowserContext, ConsoleMessage, Page, expect
 
 from halfway.colour import from_srgb
@@ -96,6 +100,15 @@ DRAWN = """() => {
   return [canvas.height, canvas.width, btoa(text)];
 }"""
 
+DROP = """([panel, name, data]) => {
+  const bytes = Uint8Array.from(atob(data), (character) => character.charCodeAt(0));
+  const files = new DataTransfer();
+  files.items.add(new File([bytes], name));
+  const dropped = new DragEvent("drop", { dataTransfer: files, bubbles: true, cancelable: true });
+  document.querySelector(panel).dispatchEvent(dropped);
+  return dropped.defaultPrevented;
+}"""
+
 
 @dataclass
 class Explorer:
@@ -161,10 +174,45 @@ class Explorer:
     def set_t(self, t: float) -> None:
         self.page.locator("[name=t]").fill(str(t))
 
+    def ask(self, name: str, value: str) -> None:
+        """Ask for an attribute, beside its slider."""
+        field = self.page.locator(f".dials [name={name}]")
+        field.fill(value)
+        field.press("Enter")
+
+    def drop(self, panel: str, name: str, content: bytes) -> None:
+        """Drop a file on a panel."""
+        # What the page does not take, the browser opens in its place.
+        assert self.page.evaluate(DROP, [panel, name, b64encode(content).decode()])
+
+    def film(self, **chosen: str) -> tuple[str, bytes]:
+        """The name and the content of a short, small film."""
+        page = self.page
+        page.get_by_role("button", name="Film").click()
+        page.locator("[name=film-size]").fill("48")
+        page.locator("[name=seconds]").fill("0.2")
+        page.locator("[name=quality]").select_option("draft")
+        for name, value in chosen.items():
+            page.locator(f"[name={name.replace('_', '-')}]").select_option(value)
+        with page.expect_download() as file:
+            page.get_by_role("button", name="Save", exact=True).click()
+        path = file.value.path()
+        assert isinstance(path, Path)
+        return file.value.suggested_filename, path.read_bytes()
+
 
 def to_linear(shown: np.ndarray) -> np.ndarray:
     """Linear RGB of drawn pixels, as the display shows them."""
     return from_srgb(shown[..., :3] / 255)
+
+
+def frames(content: bytes) -> list[np.ndarray]:
+    """Linear RGB of the pictures of a film of frames."""
+    with ZipFile(BytesIO(content)) as archive:
+        names = archive.namelist()
+        assert names == [f"{i:04}.png" for i in range(5)]
+        pictures = [Image.open(BytesIO(archive.read(name))).convert("RGB") for name in names]
+        return [to_linear(np.asarray(picture)) for picture in pictures]
 
 
 def in_mitsuba(

@@ -24,20 +24,7 @@ SMALL = {"width": 460, "height": 560}
 WIDE = {"width": 1440, "height": 900}
 PHONE = {"width": 390, "height": 844}
 PAIR = "#space=linear&pace=uniform&stops=cherry-235,gold-paint&t=0.5&light=points"
-DROP = """([panel, name, text]) => {
-  const files = new DataTransfer();
-  files.items.add(new File([text], name));
-  const event = { dataTransfer: files, bubbles: true, cancelable: true };
-  const dropped = new DragEvent("drop", event);
-  document.querySelector(panel).dispatchEvent(dropped);
-  return dropped.defaultPrevented;
-}"""
-TRIANGLE = "v 0 2 0\nv 1 0 1\nv -1 0 1\nf 1 2 3\n"
-
-
-def drop(explorer: Explorer, panel: str, name: str, text: str) -> None:
-    # What the page does not take, the browser opens in its place.
-    assert explorer.page.evaluate(DROP, [panel, name, text])
+TRIANGLE = b"v 0 2 0\nv 1 0 1\nv -1 0 1\nf 1 2 3\n"
 
 
 def test_a_cold_start_says_how_far_it_is_and_what_is_ready_can_be_used(explorer: Explorer) -> None:
@@ -133,11 +120,11 @@ def test_nothing_moves_when_something_is_said_added_or_compared(explorer: Explor
     explorer.open("#space=linear&stops=cherry-235,gold-paint,teflon&light=points")
     explorer.page.wait_for_selector(".here")
     before = explorer.page.locator(".live").bounding_box()
-    drop(explorer, ".material", "notes.obj", "nothing")
+    explorer.drop(".material", "notes.obj", b"nothing")
     said = explorer.page.locator(".material .problem")
     expect(said).to_contain_text("notes.obj has no triangles")
     assert explorer.page.locator(".live").bounding_box() == before
-    drop(explorer, ".material", "notes.obj", TRIANGLE)
+    explorer.drop(".material", "notes.obj", TRIANGLE)
     expect(said).to_have_count(0)
     explorer.page.locator("[name=compare]").select_option("paper")
     explorer.page.get_by_label("Add a stop").click()
@@ -160,7 +147,7 @@ def test_what_cannot_be_done_is_said_and_can_be_closed(explorer: Explorer) -> No
     explorer.page.locator("[name=search]").fill("teflon")
     explorer.page.keyboard.press("Enter")
     expect(said).to_have_count(0)
-    drop(explorer, ".space", "notes.txt", "nothing")
+    explorer.drop(".space", "notes.txt", b"nothing")
     expect(explorer.page.locator(".space .problem")).to_contain_text("notes.txt is nothing that")
 
 

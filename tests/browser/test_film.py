@@ -1,45 +1,16 @@
 """Films of a route, and of an object that turns."""
 
-from io import BytesIO
-from pathlib import Path
-from zipfile import ZipFile
-
 import numpy as np
-from conftest import Explorer, to_linear  # pyright: ignore[reportMissingImports]
-from PIL import Image
+from conftest import Explorer, frames  # pyright: ignore[reportMissingImports]
 
 SMALL = {"width": 460, "height": 560}
 PAIR = "#space=linear&pace=uniform&stops=cherry-235,gold-paint&t=0.5&light=points&shape="
 
 
-def filmed(explorer: Explorer, **chosen: str) -> tuple[str, bytes]:
-    """The name and the content of a short, small film."""
-    page = explorer.page
-    page.get_by_role("button", name="Film").click()
-    page.locator("[name=film-size]").fill("48")
-    page.locator("[name=seconds]").fill("0.2")
-    page.locator("[name=quality]").select_option("draft")
-    for name, value in chosen.items():
-        page.locator(f"[name={name.replace('_', '-')}]").select_option(value)
-    with page.expect_download() as file:
-        page.get_by_role("button", name="Save", exact=True).click()
-    path = file.value.path()
-    assert isinstance(path, Path)
-    return file.value.suggested_filename, path.read_bytes()
-
-
-def frames(content: bytes) -> list[np.ndarray]:
-    with ZipFile(BytesIO(content)) as archive:
-        names = archive.namelist()
-        assert names == [f"{i:04}.png" for i in range(5)]
-        pictures = [Image.open(BytesIO(archive.read(name))).convert("RGB") for name in names]
-        return [to_linear(np.asarray(picture)) for picture in pictures]
-
-
 def test_a_film_of_a_route_goes_evenly_from_one_stop_to_the_next(explorer: Explorer) -> None:
     explorer.page.set_viewport_size(SMALL)
     explorer.open(PAIR + "sphere")
-    name, content = filmed(explorer, film_as="frames (zip of PNG)")
+    name, content = explorer.film(film_as="frames (zip of PNG)")
     assert name == "cherry-235-to-gold-paint-frames.zip"
     first, *_, last = pictures = frames(content)
     assert np.abs(last - first).mean() > 0.01
@@ -54,7 +25,7 @@ def test_a_film_of_a_route_goes_evenly_from_one_stop_to_the_next(explorer: Explo
 def test_an_object_turns_once_and_only_then(explorer: Explorer) -> None:
     explorer.page.set_viewport_size(SMALL)
     explorer.open(PAIR + "teapot")
-    name, content = filmed(explorer, motion="turntable", film_as="frames (zip of PNG)")
+    name, content = explorer.film(motion="turntable", film_as="frames (zip of PNG)")
     assert name == "cherry-235-to-gold-paint-0.500-turning-frames.zip"
     pictures = frames(content)
     for one, other in zip(pictures, [*pictures[1:], pictures[0]], strict=True):
@@ -64,7 +35,7 @@ def test_an_object_turns_once_and_only_then(explorer: Explorer) -> None:
 def test_a_video_has_all_frames(explorer: Explorer) -> None:
     explorer.page.set_viewport_size(SMALL)
     explorer.open(PAIR + "sphere")
-    name, content = filmed(explorer)
+    name, content = explorer.film()
     assert name.removeprefix("cherry-235-to-gold-paint") in (".mp4", ".webm")
     play = """async (data) => {
       const video = document.createElement("video");

@@ -13,12 +13,10 @@ import pytest
 from conftest import (  # pyright: ignore[reportMissingImports]
     GRID,
     Explorer,
+    frames,
     served,
 )
 from playwright.sync_api import Locator, expect
-from test_film import filmed, frames  # pyright: ignore[reportMissingImports]
-from test_numbers import ask  # pyright: ignore[reportMissingImports]
-from test_shortlist import drop  # pyright: ignore[reportMissingImports]
 
 from halfway import attributes, mix
 from halfway.formats import write_merl
@@ -78,12 +76,12 @@ def test_a_red_glossy_plastic_is_made_warmer_compared_and_sent_to_blender(
     expect(page.locator("[name=b]")).to_be_enabled()
     now = attributes(library.brdf("red-specular-plastic"))
     wished = f"b {now['b'] + 3:.3g}"
-    ask(explorer, "b", wished.removeprefix("b "))
+    explorer.ask("b", wished.removeprefix("b "))
     price = page.locator(".missing")
     expect(price).to_contain_text("Given up: ")
     assert is_inside(price, ".panel")
     page.get_by_role("button", name="Pin", exact=True).click()
-    drop(explorer, "shortlist.json", shortlist({"yesterday's red": YESTERDAY}))
+    explorer.drop(".space", "shortlist.json", shortlist({"yesterday's red": YESTERDAY}))
     page.get_by_title("Compare with yesterday's red").click()
     ours, theirs = page.locator(".split span").all()
     expect(ours).to_have_text(f"red-specular-plastic, {wished}, L {now['L']:.3g}")
@@ -121,7 +119,7 @@ def test_a_measurement_of_ones_own_is_placed_walked_to_chrome_and_filmed(
     page.set_viewport_size(PHONE)  # pyright: ignore[reportArgumentType]
     explorer.open("#space=linear&pace=uniform&stops=red-specular-plastic,orange-paint&light=points")
     explorer.wait_for_picture(1)
-    drop(explorer, "scan.binary", (tmp_path / "scan.binary").read_bytes())
+    explorer.drop(".space", "scan.binary", (tmp_path / "scan.binary").read_bytes())
     explorer.wait_for_recipe(["scan"])
     # Where it lies, in words.
     page.locator("[name=search]").fill("like sca")
@@ -133,12 +131,12 @@ def test_a_measurement_of_ones_own_is_placed_walked_to_chrome_and_filmed(
     page.keyboard.press("Enter")
     explorer.wait_for_recipe(["chrome"])
     assert explorer.stops == ["chrome", "scan"]
-    name, content = filmed(explorer, film_as="frames (zip of PNG)")
+    name, content = explorer.film(film_as="frames (zip of PNG)")
     assert name == "chrome-to-scan-frames.zip"
     first, *_, last = frames(content)
     # A mirror under three points is black all around; what was measured is nearly white.
     assert np.median(first[16:32, 16:32]) < 0.1 < np.median(last[16:32, 16:32])
     page.keyboard.press("Escape")
-    name, content = filmed(explorer, film_as="video")
+    name, content = explorer.film(film_as="video")
     assert name.startswith("chrome-to-scan.")
     assert len(content) > 1000

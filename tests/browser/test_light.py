@@ -1,19 +1,10 @@
 """A light of one's own, turned, and how the picture is toned."""
 
-from base64 import b64encode
-
 import numpy as np
 from conftest import Explorer, to_linear  # pyright: ignore[reportMissingImports]
 from patience import wait_until
 
 SMALL = {"width": 460, "height": 560}
-DROP = """([name, data]) => {
-  const bytes = Uint8Array.from(atob(data), (character) => character.charCodeAt(0));
-  const files = new DataTransfer();
-  files.items.add(new File([bytes], name));
-  const event = { dataTransfer: files, bubbles: true, cancelable: true };
-  document.querySelector(".material").dispatchEvent(new DragEvent("drop", event));
-}"""
 # Radiance's format, pixels as they are: red to the left (-x) of who looks along +y, which is the middle, and blue to the right.
 RED, BLUE = bytes([128, 1, 1, 129]), bytes([1, 1, 128, 129])
 SKY = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 8 +X 16\n" + (RED * 8 + BLUE * 8) * 8
@@ -31,7 +22,7 @@ def test_a_light_of_one_s_own_comes_from_where_it_is_turned_to(explorer: Explore
     page = explorer.page
     page.set_viewport_size(SMALL)
     explorer.open("#space=linear&stops=teflon,chrome&t=0&light=points")
-    page.evaluate(DROP, ["sky.hdr", b64encode(SKY).decode()])
+    explorer.drop(".material", "sky.hdr", SKY)
     page.get_by_text("/ 384 samples").wait_for()
     assert page.locator("[name=light]").input_value() == "own"
     wait_until(lambda: redness(explorer) == (True, False), explorer.pause)

@@ -17,12 +17,6 @@ SIZE = {"width": 1280, "height": 900}
 HALFWAY = "#space=linear&pace=uniform&stops=gold-paint,cherry-235&t=0.5&light=points&aside=numbers"
 
 
-def ask(explorer: Explorer, name: str, value: str) -> None:
-    field = explorer.page.locator(f".dials [name={name}]")
-    field.fill(value)
-    field.press("Enter")
-
-
 def taken(explorer: Explorer) -> Recipe:
     """The recipe that is shown, as it is taken home."""
     explorer.page.wait_for_selector(".numbers:not(.behind)", state="attached")
@@ -40,11 +34,11 @@ def test_a_slider_finds_the_material_that_has_it(
     expect(page.locator("[name=gloss60]")).to_be_enabled()
     before = attributes(mix(library, taken(explorer)))
     assert_allclose(float(page.locator("[name=L]").input_value()), before["L"], rtol=0.005)
-    ask(explorer, "gloss60", "20")
+    explorer.ask("gloss60", "20")
     found = taken(explorer)
     assert found.names != ("cherry-235", "gold-paint")
     # Warmer, and as glossy as it was asked for: one number is held while another moves.
-    ask(explorer, "b", "25")
+    explorer.ask("b", "25")
     warmer = taken(explorer)
     has = attributes(mix(library, warmer))
     assert_allclose([has["gloss60"], has["b"]], [20, 25], rtol=1e-4)
@@ -66,7 +60,7 @@ def test_what_no_mix_has_is_said_and_the_nearest_is_shown(explorer: Explorer) ->
     page.set_viewport_size(SIZE)
     explorer.open(HALFWAY)
     expect(page.locator("[name=gloss60]")).to_be_enabled()
-    ask(explorer, "gloss60", "9999")
+    explorer.ask("gloss60", "9999")
     expect(page.locator(".missing")).to_contain_text("No mix has all of these: Gloss, 60° ")
     # Of all that there are, chrome is the glossiest.
     assert taken(explorer).names == ("chrome",)
@@ -138,7 +132,7 @@ def test_another_blend_has_it_too(explorer: Explorer, library: ProceduralLibrary
     explorer.page.set_viewport_size(SIZE)
     explorer.open(HALFWAY.replace("linear", "anchored"))
     expect(explorer.page.locator("[name=gloss60]")).to_be_enabled()
-    ask(explorer, "gloss60", "15")
+    explorer.ask("gloss60", "15")
     found = taken(explorer)
     assert str(found.blend) == "lobes"
     assert_allclose(attributes(mix(library, found))["gloss60"], 15, atol=0.11)

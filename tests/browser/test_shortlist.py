@@ -1,7 +1,6 @@
 """What a person keeps, brings and takes home: the shortlist, a recipe, a measurement."""
 
 import json
-from base64 import b64encode
 from dataclasses import replace
 from pathlib import Path
 from zipfile import ZipFile
@@ -22,17 +21,6 @@ from halfway.recipes import Recipe, mix
 
 SIZE = {"width": 1280, "height": 900}
 PAIR = "#space=linear&pace=uniform&stops=cherry-235,gold-paint&light=points&t="
-DROP = """([name, data]) => {
-  const bytes = Uint8Array.from(atob(data), (character) => character.charCodeAt(0));
-  const files = new DataTransfer();
-  files.items.add(new File([bytes], name));
-  const event = { dataTransfer: files, bubbles: true, cancelable: true };
-  document.querySelector(".space").dispatchEvent(new DragEvent("drop", event));
-}"""
-
-
-def drop(explorer: Explorer, name: str, content: bytes) -> None:
-    explorer.page.evaluate(DROP, [name, b64encode(content).decode()])
 
 
 def kept(explorer: Explorer) -> list[str]:
@@ -77,7 +65,7 @@ def test_what_is_kept_is_compared_named_and_taken_to_another_machine(
     with opened(page.context.browser, viewport=SIZE) as elsewhere:
         there = replace(explorer, page=elsewhere)
         there.open(PAIR + "0.5")
-        drop(there, "shortlist.json", shortlist)
+        there.drop(".space", "shortlist.json", shortlist)
         expect(elsewhere.get_by_title("warm: for the lid")).to_be_visible()
         assert kept(there) == ["warm", "0.25 cherry-235 to gold-paint"]
 
@@ -88,10 +76,14 @@ def test_a_recipe_that_is_dropped_is_shown_and_one_of_elsewhere_is_refused(
     explorer.page.set_viewport_size(SIZE)
     explorer.open(PAIR + "0.5")
     weights = {"teflon": 0.4, "chrome": 0.6}
-    drop(explorer, "mine.json", json.dumps({"library": "browser", "weights": weights}).encode())
+    explorer.drop(
+        ".space", "mine.json", json.dumps({"library": "browser", "weights": weights}).encode()
+    )
     explorer.wait_for_recipe(["chrome", "teflon"])
     assert kept(explorer) == ["mine"]
-    drop(explorer, "other.json", json.dumps({"library": "other", "weights": weights}).encode())
+    explorer.drop(
+        ".space", "other.json", json.dumps({"library": "other", "weights": weights}).encode()
+    )
     said = explorer.page.locator(".space .problem")
     expect(said).to_contain_text("other.json is of the library other, and this is browser")
 
@@ -107,9 +99,9 @@ def test_a_measurement_that_is_dropped_is_a_stop(explorer: Explorer, tmp_path: P
         explorer = replace(explorer, address=address)
         explorer.open(PAIR + "0.5")
         explorer.page.wait_for_selector(".here")
-        drop(explorer, "notes.binary", b"nothing")
+        explorer.drop(".space", "notes.binary", b"nothing")
         expect(explorer.page.locator(".space .problem")).to_contain_text("notes.binary")
-        drop(explorer, "scan.binary", (tmp_path / "scan.binary").read_bytes())
+        explorer.drop(".space", "scan.binary", (tmp_path / "scan.binary").read_bytes())
         explorer.wait_for_recipe(["scan"])
         assert explorer.stops == ["cherry-235", "scan"]
         explorer.wait_for_picture(1)
