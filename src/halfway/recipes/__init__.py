@@ -1,8 +1,9 @@
 """Recipes, what a person writes for them, and the mixing of recipes into tables."""
 
+from .aligned import aligned_mean
 from .blend import Blend
 from .body import with_body
-from .mixing import Mixer, aligned_mean, mix
+from .mixing import Mixer, mix
 from .named import NamedBrdf, file_names, file_stem
 from .opening import (
     ChangedLibraryWarning,

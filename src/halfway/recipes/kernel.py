@@ -48,13 +48,20 @@ def add_stretched_roots(
     near: np.ndarray,
     far: np.ndarray,
     weight: np.float32,
+    begins: bool,
+    ends: bool,
 ) -> None:
-    """``total += weight sqrt(body + near gloss[lower] + far gloss[lower + 1])``, row by row."""
+    """``total += weight sqrt(body + near gloss[lower] + far gloss[lower + 1])``, row by row.
+
+    What ``begins`` a sum takes the total as 0, and what ``ends`` it squares that.
+    """
     for row in range(len(total)):
         a, b = near[row, 0], far[row, 0]
         low, high = _around(gloss, lower[row])
         for i in range(total.shape[1]):
-            total[row, i] += weight * np.sqrt(body[row, i] + (a * low[i] + b * high[i]))
+            mean = np.float32(0) if begins else total[row, i]
+            mean += weight * np.sqrt(body[row, i] + (a * low[i] + b * high[i]))
+            total[row, i] = mean * mean if ends else mean
 
 
 @compiled
@@ -66,6 +73,8 @@ def add_four_stretched_roots(
     near: tuple[np.ndarray, ...],
     far: tuple[np.ndarray, ...],
     weights: tuple[np.float32, ...],
+    begins: bool,
+    ends: bool,
 ) -> None:
     """The same for four, one after another, with the sum in a register."""
     w0, w1, w2, w3 = weights
@@ -79,10 +88,12 @@ def add_four_stretched_roots(
         a0, a1, a2, a3 = near[0][row, 0], near[1][row, 0], near[2][row, 0], near[3][row, 0]
         b0, b1, b2, b3 = far[0][row, 0], far[1][row, 0], far[2][row, 0], far[3][row, 0]
         for i in range(len(out)):
-            mean = out[i] + w0 * np.sqrt(body0[i] + (a0 * low0[i] + b0 * high0[i]))
+            mean = np.float32(0) if begins else out[i]
+            mean += w0 * np.sqrt(body0[i] + (a0 * low0[i] + b0 * high0[i]))
             mean += w1 * np.sqrt(body1[i] + (a1 * low1[i] + b1 * high1[i]))
             mean += w2 * np.sqrt(body2[i] + (a2 * low2[i] + b2 * high2[i]))
-            out[i] = mean + w3 * np.sqrt(body3[i] + (a3 * low3[i] + b3 * high3[i]))
+            mean += w3 * np.sqrt(body3[i] + (a3 * low3[i] + b3 * high3[i]))
+            out[i] = mean * mean if ends else mean
 
 
 @compiled

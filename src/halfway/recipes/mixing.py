@@ -12,7 +12,7 @@ than 1, and more than any of its ingredients does from there, the channel is sca
 Last, the body of the mix is multiplied by what the recipe says (`halfway.recipes.body`).
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import replace
 from functools import lru_cache, partial
 from threading import Lock
@@ -24,8 +24,9 @@ from jaxtyping import Float64
 from .._types import Table
 from ..brdf import TabularBrdf, albedos, gloss
 from ..errors import LibraryError, RecipeError
-from ..halfdiff import MERL, Grid
+from ..halfdiff import MERL
 from ..library import Library, open_library
+from .aligned import aligned_mean
 from .blend import Blend
 from .blend import Mapping as BlendMapping
 from .body import LIMITED_AT, with_body
@@ -37,7 +38,6 @@ KEPT_BYTES = 24 * 12 * MERL.size
 """Of the rows that a mixer keeps, or `LEAST_ROWS` where they are larger: as many as a recipe has."""
 LEAST_ROWS = 8
 _CHUNK = 1 << 15  # samples summed at once: the sums stay in a core's cache
-_ALIGNED_CHUNK = 1 << 18  # here a call costs more than a farther cache
 
 
 class Mixer:
@@ -160,85 +160,6 @@ def mix(
     """
     opened = open_library(library)
     return Mixer(opened).mix(_to_recipe(opened, recipe, Blend(blend)))
-
-
-def aligned_mean(
-    parts: Sequence[gloss.Gloss],
-    weights: Float64[np.ndarray, "3 n"],
-    mapping: BlendMapping,
-    grid: Grid,
-    *,
-    compiled: bool = False,
-) -> Table:
-    """The weighted mean of materials whose glosses are stretched to one width, shape (3, p) with theta_h first."""
-    add = _compiled_adding() if compiled and mapping.to is np.sqrt else _add_stretched
-    width = _mean_width(parts, weights)
-    stretches = [gloss.Stretch.by(width / part.width, grid) for part in parts]
-    _, n_rows, n = parts[0].body.shape
-    values = np.empty((3, n_rows, n), np.float32)
-    step = max(1, _ALIGNED_CHUNK // n)
-    for channel, each in enumerate(weights.astype(np.float32)):
-        lobes = [
-            _Lobe(parts[i].body[channel], parts[i].gloss[channel], stretches[i], each[i])
-            for i in np.flatnonzero(each).tolist()
-        ]
-        for start in range(0, n_rows, step):
-            part = slice(start, start + step)
-            total = values[channel, part]
-            total[:] = 0
-            add(total, lobes, part, mapping)
-            mapping.back(total, out=total)
-    return values.reshape(3, -1)
-
-
-class _Lobe(NamedTuple):
-    """One channel of a material in a mix."""
-
-    body: np.ndarray
-    gloss: np.ndarray
-    stretch: gloss.Stretch
-    weight: np.float32
-
-    def rows(self, part: slice) -> tuple[np.ndarray, ...]:
-        """What the compiled loops take of some rows."""
-        lower, near, far = (each[part] for each in self.stretch)
-        return self.body[part], self.gloss, lower, near, far
-
-
-def _add_stretched(
-    total: np.ndarray, lobes: list[_Lobe], part: slice, mapping: BlendMapping
-) -> None:
-    """Add some rows of materials, mapped and weighted, to a sum."""
-    for lobe in lobes:
-        stretched = lobe.stretch.rows(lobe.gloss, part)
-        stretched += lobe.body[part]
-        mapping.to(stretched, out=stretched)
-        stretched *= lobe.weight
-        total += stretched
-
-
-def _compiled_adding() -> Callable[..., None]:
-    from .kernel import add_four_stretched_roots, add_stretched_roots  # numba takes a second
-
-    def add(
-        total: np.ndarray,
-        lobes: list[_Lobe],
-        part: slice,
-        mapping: BlendMapping,  # noqa: ARG001 (square roots)
-    ) -> None:
-        while len(lobes) > 2:  # four at once take as long as three
-            four, lobes = lobes[:4], lobes[4:]
-            four += [four[-1]._replace(weight=np.float32(0))] * (4 - len(four))
-            rows = zip(*(lobe.rows(part) for lobe in four), strict=True)
-            add_four_stretched_roots(total, *rows, tuple(lobe.weight for lobe in four))
-        for lobe in lobes:
-            add_stretched_roots(total, *lobe.rows(part), lobe.weight)
-
-    return add
-
-
-def _mean_width(parts: Sequence[gloss.Gloss], weights: Float64[np.ndarray, "3 n"]) -> float:
-    return float(np.exp(weights.mean(axis=0) @ np.log([part.width for part in parts])))
 
 
 def _aligns(recipe: Recipe) -> bool:
