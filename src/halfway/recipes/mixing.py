@@ -54,8 +54,8 @@ class Mixer:
         self._n_rows, self._compiles = n_rows, compiles
         # Not of a method: a mixer that is done with shall go at once, with its rows.
         self._row = lru_cache(n_rows)(partial(_row, library))
-        # Body and gloss are as large as a row, each.
-        self._parts = lru_cache(max(1, n_rows // 2))(partial(_Parts.of, library))
+        # A body is as large as a row, and what a gloss has above its foot half as large.
+        self._parts = lru_cache(max(1, 2 * n_rows // 3))(partial(_Parts.of, library))
         self._lock = Lock()  # threads that want the same row compute it once
         self._n_mixed = 0
 
