@@ -13,8 +13,9 @@ from conftest import (  # pyright: ignore[reportMissingImports]
     Explorer,
     served,
 )
+from patience import wait_until
 from PIL import Image
-from playwright.sync_api import expect
+from playwright.sync_api import Route, expect
 
 from halfway.library import ProceduralLibrary
 from halfway.models import builtin
@@ -55,6 +56,24 @@ def test_a_cold_start_says_how_far_it_is_and_what_is_ready_can_be_used(explorer:
             expect(explorer.page.locator(".status")).to_be_hidden()
     finally:
         go_on.set()
+
+
+def test_small_pictures_that_come_late_are_in_every_row(explorer: Explorer) -> None:
+    explorer.page.set_viewport_size(SMALL)
+    late: list[Route] = []
+    explorer.page.route("**/api/thumbnails", lambda route: late.append(route))
+    explorer.open(PAIR.replace("0.5", "0"))
+    explorer.wait_for_recipe(["cherry-235"])
+    explorer.set_t(1)
+    explorer.wait_for_recipe(["gold-paint"])
+    painted = """(selector) => [...document.querySelectorAll(selector)].map((canvas) =>
+        canvas.getContext("2d").getImageData(canvas.width / 2, canvas.height / 2, 1, 1).data[3])"""
+    late[0].continue_()
+    wait_until(lambda: explorer.page.evaluate(painted, ".chip .thumbnail")[0], explorer.pause)
+    # The other row was not on the page when they came.
+    explorer.set_t(0.5)
+    explorer.wait_for_recipe(["cherry-235", "gold-paint"])
+    assert explorer.page.evaluate(painted, ".recipe .thumbnail") == [255, 255]
 
 
 def test_the_picture_is_as_large_as_asked_whole_and_named_after_the_material(

@@ -37,11 +37,11 @@ export function follow(context: Context): void {
 }
 
 /** The small pictures of all materials, which stand in many places. */
-function fetchPictures({ client, store, actions, thumbnails, root }: Context): void {
+function fetchPictures({ client, store, actions, thumbnails }: Context): void {
   thumbnails.onProblem = (problem) => actions.say("route", "pictures", problem);
   client.thumbnails().then(
     (pictures) => {
-      thumbnails.fill(pictures, root);
+      thumbnails.fill(pictures);
       store.set({ pictured: true });
     },
     (error: Error) => {

@@ -18,6 +18,8 @@ export class Thumbnails {
   /** Told what failed, and null when it did not. */
   onProblem: (problem: string | null) => void = () => {};
   private byName: ReadonlyMap<string, Uint8Array> = new Map();
+  /** Canvases made before the pictures came, on the page or not. */
+  private readonly blank = new Map<HTMLCanvasElement, string>();
   private readonly averaged = new Map<string, Float32Array>();
 
   /** Pictures of mixes that are not made of the materials' own, those asked for last at the end; null: being made. */
@@ -34,13 +36,13 @@ export class Thumbnails {
     private readonly gone: AbortSignal,
   ) {}
 
-  /** The pictures have come: those that stand on the page already are painted. */
-  fill(pictures: Pictures, root: HTMLElement): void {
+  /** The pictures have come. */
+  fill(pictures: Pictures): void {
     const [, size = 0] = pictures.shape;
     this.size = size;
     this.byName = new Map(this.names.map((name, i) => [name, pictureIn(pictures, i, size)]));
-    for (const canvas of root.querySelectorAll<HTMLCanvasElement>("canvas.thumbnail"))
-      this.paint(canvas, canvas.dataset.material!);
+    for (const [canvas, name] of this.blank) this.paint(canvas, name);
+    this.blank.clear();
   }
 
   /** The picture of a recipe, ready for a canvas; until it is made the linear one stands in, and `then` runs when it is. */
@@ -145,8 +147,9 @@ export class Thumbnails {
 
   /** A canvas with the picture of one material. */
   canvas(name: string): HTMLCanvasElement {
-    const canvas = el("canvas.thumbnail", { "data-material": name });
-    this.paint(canvas, name);
+    const canvas = el("canvas.thumbnail");
+    if (this.byName.size > 0) this.paint(canvas, name);
+    else this.blank.set(canvas, name);
     return canvas;
   }
 

@@ -27,8 +27,7 @@ function flat(...pixels: readonly (readonly number[])[]): Pictures {
 
 function filled(make: (recipes: readonly unknown[]) => Promise<Pictures>, gone = new AbortController()) {
   const thumbnails = new Thumbnails(NAMES, "small", make, gone.signal);
-  const root = { querySelectorAll: () => [] } as unknown as HTMLElement;
-  thumbnails.fill(flat([255, 0, 0, 128], [0, 255, 0, 128], [0, 0, 255, 128]), root);
+  thumbnails.fill(flat([255, 0, 0, 128], [0, 255, 0, 128], [0, 0, 255, 128]));
   return thumbnails;
 }
 
