@@ -11,17 +11,17 @@ import numpy as np
 from halfway.brdf import fresnel
 from halfway.cli.arguments import parse_grid
 from halfway.control import Control, Wishes
+from halfway.control.wishes import attribute
 from halfway.halfdiff import Grid, cosines
-from halfway.instruments import ATTRIBUTES, of_readings, read_table
-from halfway.instruments.functionals import INSTRUMENTS
+from halfway.instruments import ATTRIBUTES, INSTRUMENTS, of_readings, read_table
 from halfway.library import Library, ProceduralLibrary, open_library
-from halfway.people import Perception
+from halfway.people import QUALITIES, Perception
 from halfway.people.networks import networks
 from halfway.people.perceived import lightness, samples
 from halfway.recipes import Blend, Recipe, mix
 
 ASKED = ("gloss60", "albedo", "body")
-N_TRIPLES, N_BLENDED = 200, 20
+N_TRIPLES, N_BLENDED, N_PERCEIVED = 200, 20, 200
 ORDER = ("chrome", "specular-black-phenolic", "teflon", "white-fabric", "blue-fabric")
 
 
@@ -43,6 +43,7 @@ def main() -> None:
     print_mirrors()
     print_found(control)
     print_blends(control)
+    print_qualities(control)
     print_perceived(library)
 
 
@@ -113,6 +114,33 @@ def print_blends(control: Control) -> None:
         print(
             f"{N_BLENDED} triples by {blend}: {sum(m <= 1 for m in missed)} found, the worst {max(missed):.2f} off, "
             f"{np.median(seconds):.1f} s in the median, {max(seconds):.1f} s at most"
+        )
+
+
+def print_qualities(control: Control) -> None:
+    """How near, and how soon, random mixes are found by what people perceive of them, alone and beside an instrument's number."""
+    rng, n, reader = np.random.default_rng(0), len(control.library), control.reader(QUALITIES)
+    for k, beside in ((1, ()), (2, ()), (1, ("gloss60",)), (1, ("body",))):
+        seconds, missed = [], []
+        for _ in range(N_PERCEIVED):
+            weights = np.zeros(n)
+            weights[rng.choice(n, 5, replace=False)] = rng.dirichlet(np.ones(5))
+            of = reader.of(control.recipe(weights, Blend.LINEAR))
+            names = (*rng.choice(list(QUALITIES), k, replace=False), *beside)
+            wishes = Wishes({name: attribute(name).of(of) for name in names})
+            start = time.process_time()
+            recipe = control.find(wishes, clamp=True)
+            seconds.append(time.process_time() - start)
+            missed.append(wishes.missed(reader.of(recipe)))
+        print(
+            f"{N_PERCEIVED} wishes of {k} perceived {' '.join(beside)}: {sum(m <= 1 for m in missed)} found, "
+            f"{1e3 * np.median(seconds):.0f} ms of CPU in the median, {1e3 * max(seconds):.0f} ms at most"
+        )
+    for name in QUALITIES:
+        start = time.process_time()
+        low, high = control.reach(name, Wishes.of({"gloss60": 20}))
+        print(
+            f"  {name} {low:.2f} to {high:.2f} at gloss60 = 20, {time.process_time() - start:.1f} s"
         )
 
 

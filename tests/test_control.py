@@ -8,13 +8,14 @@ from glossy import GRID, glossy, library
 from numpy.testing import assert_allclose
 from PIL import Image
 
-from halfway import attributes, find, mix, reach, write_brdf
+from halfway import TabularBrdf, attributes, find, mix, reach, write_brdf
 from halfway.cli import main as halfway
 from halfway.colour import to_hex
 from halfway.control import Control, Range, Wishes
 from halfway.errors import ControlError, OutOfReachError
 from halfway.instruments import ATTRIBUTES, of_readings, read_table
 from halfway.look import portrait, to_png
+from halfway.people import QUALITIES, Perception
 from halfway.recipes import Blend, Recipe
 from halfway.space import along
 
@@ -38,6 +39,12 @@ def ends(name: str, **asked) -> Range:
     return CONTROL.reach(name, Wishes.of(asked.get("set")))
 
 
+def read(table: TabularBrdf) -> dict:
+    """What instruments read off a table, and how people would perceive it."""
+    perceived = Perception.of(LIBRARY).perceived(table)
+    return {**attributes(table), **{name: each.value for name, each in perceived.items()}}
+
+
 def values_of(weights: np.ndarray) -> dict:
     dense = np.broadcast_to(weights, (3, *weights.shape))
     return of_readings(CONTROL.readings.mix(dense, Blend.LINEAR))
@@ -57,6 +64,44 @@ def test_a_recipe_has_what_is_asked_for(names: tuple[str, ...], seed: int):
         assert_allclose(has[name], asked[name], rtol=1e-6, atol=1e-9)
     assert_allclose(attributes(mix(LIBRARY, recipe))[names[0]], asked[names[0]], rtol=1e-4)
     assert (recipe.weights == recipe.weights[0]).all()
+
+
+@pytest.mark.parametrize("blend", [Blend.LINEAR, Blend.ROOT])
+@pytest.mark.parametrize("names", [("metallic",), ("matte", "gloss60"), ("soft", "bright", "L")])
+@pytest.mark.parametrize("seed", range(3))
+def test_what_people_perceive_of_a_mix_can_be_asked_for(blend: Blend, names: tuple, seed: int):
+    """Of a random mix; read off the table of what is found, with what instruments read of it."""
+    dense = np.broadcast_to(random_weights(1, seed)[0], (3, N))
+    of = read(mix(LIBRARY, Recipe.from_dense("glossy", LIBRARY.names, dense, blend)))
+    has = read(mix(LIBRARY, CONTROL.find(Wishes.of({n: of[n] for n in names}), blend=blend)))
+    for name in names:
+        assert_allclose(has[name], of[name], atol=0.01 if name in QUALITIES else 0.1)
+
+
+def test_more_of_what_people_perceive_goes_as_far_as_some_mix_does():
+    """The ends of a walk are no narrower than the materials, and each is what a mix has, with what is held beside it."""
+    each = [read(LIBRARY.brdf(name))["metallic"] for name in LIBRARY.names]
+    low, high = ends("metallic")
+    assert low <= min(each) + 0.01
+    assert high >= max(each) - 0.01
+    of = read(mix(LIBRARY, CONTROL.recipe(random_weights(1)[0], Blend.LINEAR)))
+    held = {"gloss60": of["gloss60"]}
+    low, high = ends("metallic", set=held)
+    assert low - 0.01 <= of["metallic"] <= high + 0.01
+    for end in (low, high):
+        has = read(mix(LIBRARY, found(set={**held, "metallic": end})))
+        assert_allclose(has["metallic"], end, atol=0.01)
+        assert_allclose(has["gloss60"], of["gloss60"], atol=0.1)
+
+
+def test_what_nobody_would_perceive_of_a_mix_is_told_in_one_line_and_the_nearest_taken():
+    with pytest.raises(
+        OutOfReachError, match=r"metallic = 1.9: it was found from .* --clamp"
+    ) as told:
+        found(set={"metallic": 1.9})
+    assert "\n" not in str(told.value)
+    has = read(mix(LIBRARY, found(set={"metallic": 1.9}, clamp=True)))
+    assert_allclose(has["metallic"], ends("metallic").high, atol=0.05)
 
 
 @pytest.mark.parametrize("blend", [blend for blend in Blend if blend is not Blend.LINEAR])
@@ -281,6 +326,10 @@ def test_the_command_line_finds_and_tells(tmp_path, monkeypatch, capsys):
     )
     found = json.loads(capsys.readouterr().out)
     assert found["attributes"]["gloss60"] == pytest.approx(4, rel=1e-6)
+    more = "find three.brdflib --like matte --set metallic=.4"
+    run(monkeypatch, *more.split())
+    (line,) = [x for x in capsys.readouterr().out.splitlines() if x.startswith("metallic")]
+    assert line.split()[1:3] == ["0.40", "trust:"]
     run(monkeypatch, "attributes", "new.json", "--json")
     (read,) = json.loads(capsys.readouterr().out)
     assert read["attributes"]["gloss60"] == pytest.approx(4, rel=1e-4)

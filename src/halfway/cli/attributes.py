@@ -42,7 +42,7 @@ def attributes(
         show_json([_document(*each) for each in named])
     elif len(read) == 1:
         show(*described(read[0], read[0]))
-        show(*(f"{name:22}{p.value:10.2f}  trust: {p.trust}" for name, p in seen[0].items()))
+        show(*perceived_lines(seen[0]))
     else:
         show("  ".join(f"{name:>10}" for name in (*read[0], *seen[0])) + "  material")
         rows = zip(labels, read, seen, strict=True)
@@ -60,9 +60,17 @@ def _perceived(material: "NamedBrdf") -> "dict[str, Perceived]":
 def _document(
     label: str, read: Mapping[str, Any], seen: "Mapping[str, Perceived]"
 ) -> dict[str, Any]:
-    perceived = {name: p._asdict() for name, p in seen.items()}
-    document = {"format": 1, "name": label, "attributes": to_json(read)}
-    return {**document, "perceived": perceived} if seen else document
+    return {"format": 1, "name": label, "attributes": to_json(read), **perceived_json(seen)}
+
+
+def perceived_lines(seen: "Mapping[str, Perceived]") -> list[str]:
+    """How people would perceive one material, a line each."""
+    return [f"{name:22}{p.value:10.2f}  trust: {p.trust}" for name, p in seen.items()]
+
+
+def perceived_json(seen: "Mapping[str, Perceived]") -> dict[str, Any]:
+    """The same as a part of a document; no part where nobody asked."""
+    return {"perceived": {name: p._asdict() for name, p in seen.items()}} if seen else {}
 
 
 def changes(pairs: Mapping[str, tuple[Any, Any]]) -> str:

@@ -7,7 +7,7 @@ import typer
 
 from ..locations import DEFAULT_LIBRARY
 from . import options
-from .attributes import changes, to_json
+from .attributes import changes, perceived_json, perceived_lines, to_json
 from .completion import complete_names
 from .console import say, show, show_json, work
 from .outputs import writing
@@ -15,6 +15,7 @@ from .outputs import writing
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from ..people import Perceived
     from ..recipes import Recipe
 
 NAME_VALUE = "NAME=VALUE"
@@ -28,7 +29,11 @@ Like = Annotated[
 ]
 Exactly = Annotated[
     list[str],
-    typer.Option("--set", metavar=NAME_VALUE, help="An attribute, exactly; again for more."),
+    typer.Option(
+        "--set",
+        metavar=NAME_VALUE,
+        help="An attribute, or a perceived quality, exactly; again for more.",
+    ),
 ]
 AtMost = Annotated[list[str], typer.Option(metavar=NAME_VALUE, help="An attribute at the most.")]
 AtLeast = Annotated[list[str], typer.Option(metavar=NAME_VALUE, help="An attribute at the least.")]
@@ -76,12 +81,14 @@ def find(
     halfway find --like cherry-235 --set gloss60=35 -o glossy.json
     halfway find merl.brdflib --set L=40 --set a=20 --set b=10 --at-most gloss60=5
     halfway find --like teflon --set gloss60=20 --blend lobes -o shiny.json
+    halfway find --like cherry-235 --set metallic=.7 -o metallic.json   as people would perceive it: halfway attributes --perceived
     halfway find --like sphere.png -o seen.json                         in the light that small pictures have here
     halfway find --like photo.png --lights forest.exr -o seen.json      in that of a place
     halfway find --like scan.binary --set "body=#7a3b1e" -o new.binary  its highlight is held, unless --release gloss60
     """
     from halfway.control import Control, Wishes
     from halfway.export import write_material, write_recipe
+    from halfway.people import QUALITIES
     from halfway.recipes import Blend, NamedBrdf
 
     from .arguments import ArgumentError, parse_lights, parse_targets
@@ -108,7 +115,8 @@ def find(
                 write_material(output, NamedBrdf.mixed(control.library, recipe, output.stem))
     has = control.attributes(recipe)
     _say_given_up(recipe, like, control.given_up(has, wishes, like or None))
-    _show(recipe, has, as_json=as_json)
+    seen = control.perceived(recipe) if wishes.names & set(QUALITIES) else {}
+    _show(recipe, has, seen, as_json=as_json)
     if output:
         say(
             f"{output}: a mix of {', '.join(recipe.names)}. Next: halfway render {output} -o new.png"
@@ -127,11 +135,18 @@ def _say_given_up(recipe: "Recipe", like: str, lost: "Mapping[str, tuple[Any, An
         say(f"no nearer mix keeps what {like} has: {changes(lost)}")
 
 
-def _show(recipe: "Recipe", read: "Mapping[str, Any]", *, as_json: bool) -> None:
+def _show(
+    recipe: "Recipe",
+    read: "Mapping[str, Any]",
+    seen: "Mapping[str, Perceived]",
+    *,
+    as_json: bool,
+) -> None:
     from halfway.instruments import described
 
     if as_json:
-        show_json({"format": 1, **recipe.to_json(), "attributes": to_json(read)})
+        also = perceived_json(seen)
+        show_json({"format": 1, **recipe.to_json(), "attributes": to_json(read), **also})
         return
     show(*(f"{weight:.6f}  {name}" for name, weight in recipe.to_json()["weights"].items()))
-    show(*described(read, read))
+    show(*described(read, read), *perceived_lines(seen))

@@ -5,43 +5,27 @@ The weights are one row for all channels, so that what is linear in the table is
 
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from functools import cached_property, partial
+from typing import Any
 
 import numpy as np
-from jaxtyping import Float64
 
-from ..brdf import TabularBrdf
 from ..errors import OutOfReachError
-from ..instruments import (
-    ATTRIBUTES,
-    Attribute,
-    Readings,
-    attribute,
-    of_readings,
-    read_table,
-)
+from ..instruments import ATTRIBUTES, Attribute, Readings, of_readings
 from ..library import Library, LibraryRef, open_library
 from ..look import PACING_SCENE, Looks, SphereScene
+from ..people import QUALITIES, Perceived
 from ..recipes import Blend, Mixer, Recipe, is_recipe_file, open_recipe
 from ..tasks import HERE, Work
 from .nearness import Nearness
+from .newton import Linearised
 from .programme import Goals, Weights, solve
+from .ranges import Range, Walk
+from .reader import MixReader
 from .recolour import changed, in_colour
 from .reference import Like, Reference
 from .search import Search
-from .wishes import SIGNS, Wishes, row_of
-
-N_STEPS = 50
-"""Of the search for the end of a range; a ratio takes three or four."""
-SAME = 1e-9
-"""A step that moves the end by less, as a share, is the last."""
-
-
-class Range(NamedTuple):
-    """From the least to the most of an attribute."""
-
-    low: float
-    high: float
+from .wishes import SIGNS, Wishes, attribute
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,6 +37,7 @@ class Control:
     looks: Looks
     nearness: Nearness
     mixer: Mixer
+    work: Work = HERE
 
     @classmethod
     def of(
@@ -71,7 +56,9 @@ class Control:
         scene = PACING_SCENE if lights is None else SphereScene.under(lights)
         readings = Readings.fit(opened, work=work)
         looks = Looks.fit(opened, scene, work=work)
-        return cls(opened, readings, looks, Nearness.of(looks, readings), mixer or Mixer(opened))
+        return cls(
+            opened, readings, looks, Nearness.of(looks, readings), mixer or Mixer(opened), work
+        )
 
     def find(
         self,
@@ -88,33 +75,31 @@ class Control:
 
         In another blend than the linear one a ``draft`` has what is wished for roughly, and is found sooner.
         """
-        like = self._as_recipe(like)
-        search = Search(
-            control=self,
-            like=like,
-            reference=self.reference(like, wishes, draft=draft),
-            blend=blend,
-            few=few,
-            draft=draft,
-        )
+        search = self._search(wishes, like=like, blend=blend, few=few, draft=draft)
         recipe = search.best(wishes, release, clamp=clamp)
         if recipe is None:
             raise OutOfReachError(self.out_of_reach(wishes))
         return recipe
 
     def reach(self, name: str, wishes: Wishes) -> Range | None:
-        """From the least to the most of an attribute where ``wishes`` hold; None where no mix has those."""
+        """From the least to the most of an attribute where ``wishes`` hold; None where no mix has those.
+
+        Among linear mixes; in what people perceive, or beside it, as far as a walk among them got.
+        """
         wanted = attribute(name)
         wishes.require(wanted, bound=True)
-        goals = wishes.goals(self.readings.values)
-        start = solve(np.zeros(len(self.library)), goals)
-        if start is None:
-            return None
-        return Range(*(self._end(wanted, wishes, goals, start, sign) for sign in (-1, 1)))
+        mixes = self.mixes(wishes, also=[name])
+        start = self._start(wishes, mixes)
+        return None if start is None else Walk(wanted, wishes, mixes).range(start)
 
     def attributes(self, recipe: Recipe, *, draft: bool = False) -> dict[str, Any]:
         """The attributes of a recipe of the library, by name; of a linear one without its table, and in a ``draft`` by its small one."""
-        return of_readings(self.reading(recipe, draft=draft))
+        return of_readings(self._reader.of(recipe, draft=draft))
+
+    def perceived(self, recipe: Recipe) -> dict[str, Perceived]:
+        """How people would perceive a recipe of the library, by name."""
+        perception = self._asking_people.perception
+        return perception.perceived(self.mixer.mix(recipe)) if perception else {}
 
     def given_up(
         self, here: Mapping[str, Any], wishes: Wishes, like: Like
@@ -131,35 +116,19 @@ class Control:
             if all(changed(a, each[a.name], here[a.name]) for each in (there, expected))
         }
 
-    def number(self, wanted: Attribute, weights: Weights) -> float:
-        """An attribute of a mix; the most there is where it has none, as a matte one no highlight."""
-        dense = np.broadcast_to(weights, (3, len(weights)))
-        value = float(wanted.of(self.readings.mix(dense, Blend.LINEAR)))
-        return wanted.most if np.isnan(value) else value
-
-    def _end(
-        self, wanted: Attribute, wishes: Wishes, goals: Goals, start: Weights, sign: int
-    ) -> float:
-        """The least or the most: a step goes as far as can be beyond the value before, until there is nothing beyond.
-
-        W. Dinkelbach, "On Nonlinear Fractional Programming", Management Science 13, 1967.
-        """
-        value = self.number(wanted, start)
-        for _ in range(N_STEPS):
-            (condition,) = wanted.conditions(value, wishes.exact)
-            weights = solve(-sign * row_of(condition, self.readings.values), goals)
-            beyond = value if weights is None else self.number(wanted, weights)
-            if sign * (beyond - value) <= SAME * max(abs(value), SAME):
-                break
-            value = beyond
-        return value
+    def _start(self, wishes: Wishes, mixes: Linearised) -> Weights | None:
+        """Some mix that has what is wished for."""
+        if mixes.is_linear:
+            return solve(np.zeros(len(self.library)), wishes.goals(mixes.values))
+        recipe, missed = self._search(wishes).mix(wishes)
+        return recipe.dense(self.library.names)[0] if recipe and missed <= 1 else None
 
     def reference(self, like: Like, wishes: Wishes, *, draft: bool = False) -> Reference:
         """What a recipe shall be like; without it, the material that is nearest to the wishes."""
         if like is None:
-            return Reference(self.nearness.points[wishes.nearest(self.readings.values)])
+            return Reference(self.nearness.points[wishes.nearest(self.reader(wishes.names).values)])
         if isinstance(like, Recipe):
-            readings = self.reading(like, draft=draft)
+            readings = self._reader.of(like, draft=draft)
             return Reference(self.nearness.seen(self.looks.of(like), readings), readings)
         return Reference.of(like, self.library, self.readings, self.nearness)
 
@@ -171,10 +140,10 @@ class Control:
                 held = others.only(attribute(name).needs) if alone else others
                 if told := self._too_far(kind, name, target, held):
                     return f"{told} Ask for that, or let another wish go; `halfway find --clamp` takes the nearest."
-        return (
-            f"no mix of {self.library.name} has {wishes}, and none with one of them less: "
-            "let some go; `halfway find --clamp` takes the nearest."
-        )
+        told = f"no mix of {self.library.name} has {wishes}, and none with one of them less"
+        if not self.mixes(wishes).is_linear:
+            told = f"no mix of {self.library.name} was found that has {wishes}"
+        return f"{told}: let some go; `halfway find --clamp` takes the nearest."
 
     def _too_far(self, kind: str, name: str, target: Any, held: Wishes) -> str | None:
         """What to say of a wish that no mix has where the others hold; None where one does, or none has the others."""
@@ -188,35 +157,55 @@ class Control:
         too_high = kind != "at_most" and ends is not None and target > ends.high
         if ends is None or not (too_low or too_high):
             return None
+        goes = "it goes" if self.mixes(held, also=[name]).is_linear else "it was found"
         return (
-            f"{told}: it goes from {wanted.written(ends.low)} to {wanted.written(ends.high)} there."
+            f"{told}: {goes} from {wanted.written(ends.low)} to {wanted.written(ends.high)} there."
         )
 
     def _nearest_colour(
         self, wanted: Attribute, target: Any, held: Wishes, told: str
     ) -> str | None:
-        nothing = np.zeros(len(self.library))
-        hard = held.goals(self.readings.values)
-        soft = Wishes({wanted.name: target}).goals(self.readings.values, missed=1.0)
-        weights = solve(nothing, Goals.join([hard, soft]))
-        exactly = Goals.join([hard, Wishes({wanted.name: target}).goals(self.readings.values)])
-        if weights is None or solve(nothing, exactly) is not None:
+        values, nothing = self.reader(held.names).values, np.zeros(len(self.library))
+        colour = Wishes({wanted.name: target})
+        hard = held.goals(values)
+        weights = solve(nothing, Goals.join([hard, colour.goals(values, missed=1.0)]))
+        if weights is None or solve(nothing, Goals.join([hard, colour.goals(values)])) is not None:
             return None
-        return (
-            f"{told}: the nearest is {wanted.written(weights @ wanted.of(self.readings.values))}."
+        return f"{told}: the nearest is {wanted.written(weights @ wanted.of(values))}."
+
+    def _search(
+        self,
+        wishes: Wishes,
+        *,
+        like: Like = None,
+        blend: Blend = Blend.LINEAR,
+        few: bool = False,
+        draft: bool = False,
+    ) -> Search:
+        like = self._as_recipe(like)
+        reference = self.reference(like, wishes, draft=draft)
+        return Search(
+            control=self, like=like, reference=reference, blend=blend, few=few, draft=draft
         )
 
-    def reading(
-        self, recipe: Recipe, *, draft: bool = False
-    ) -> Float64[np.ndarray, "n_instruments 3"]:
-        """What instruments read off a recipe; of a linear one without its table."""
-        if recipe.pictures_mix:
-            return self.readings.mix(recipe.dense(self.library.names), recipe.blend)
-        return read_table(self.table(recipe, draft=draft))
+    def mixes(
+        self, wishes: Wishes, blend: Blend = Blend.LINEAR, *, also: Collection[str] = ()
+    ) -> Linearised:
+        """Mixes by a blend, of which is read what is wished for, and these attributes."""
+        reader = self.reader({*wishes.names, *also})
+        return Linearised(wishes, partial(self.recipe, blend=blend), reader, blend, also=also)
 
-    def table(self, recipe: Recipe, *, draft: bool) -> TabularBrdf:
-        """The table of a recipe, or for a ``draft`` its small one."""
-        return self.looks.tables.table(recipe) if draft else self.mixer.mix(recipe)
+    def reader(self, names: Collection[str] = ()) -> MixReader:
+        """What reads these attributes."""
+        return self._asking_people if set(names) & set(QUALITIES) else self._reader
+
+    @cached_property
+    def _reader(self) -> MixReader:
+        return MixReader(self.readings.values, self.readings, self.looks, self.mixer)
+
+    @cached_property
+    def _asking_people(self) -> MixReader:
+        return self._reader.asking_people(self.library, work=self.work)
 
     def _as_recipe(self, like: Like) -> Like:
         """The recipe that a JSON file holds, where it is of the library; else what was given."""

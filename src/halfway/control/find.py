@@ -9,7 +9,8 @@ from ..errors import ControlError, OutOfReachError
 from ..library import Library
 from ..recipes import Blend, Recipe
 from ..tasks import HERE, Work
-from .control import Control, Range
+from .control import Control
+from .ranges import Range
 from .reference import Like
 from .wishes import Wishes
 
@@ -42,10 +43,11 @@ def find(
         What it shall be like: a material of the library, or anything that `attributes` takes; a colour such as ``#7a2a3a``; a
         picture of a sphere (`halfway.control.pictures`). Without it, the material that has most of what is asked for.
     set, at_most, at_least : mapping
-        Attributes by name, and their values: numbers, or a colour such as ``#7a2a3a`` for ``body``.
+        Attributes by name, and their values: numbers, or a colour such as ``#7a2a3a`` for ``body``. So are the perceived
+        qualities of `halfway.people.QUALITIES`: about 0 for not at all, 1 for very.
     blend : Blend or str
-        How the recipe is mixed. Linear: what is asked for is met to rounding. Others: by some steps of Newton's method from
-        there, to `Attribute.close`.
+        How the recipe is mixed. Linear: what is asked of instruments is met to rounding. Others, and where a perceived
+        quality is asked for: by some steps of Newton's method from there, to `Attribute.close`.
     few : bool
         Of no more materials than there are numbers asked for, and one.
     clamp : bool
@@ -85,9 +87,10 @@ def reach(
     at_least: Mapping[str, Any] | None = None,
     work: Work = HERE,
 ) -> Range:
-    """From the least to the most of an attribute, among the mixes of a library that have what is asked for.
+    """From the least to the most of an attribute, among the linear mixes of a library that have what is asked for.
 
-    Parameters are those of `find`.
+    Of a perceived quality, or beside one, the ends are what a walk among mixes came to: some mix has them, and others may
+    go farther. Parameters are those of `find`.
 
     Raises
     ------

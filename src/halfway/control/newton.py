@@ -1,6 +1,6 @@
-"""Blends that are not linear, made linear where they stand.
+"""What is not linear in the weights, made linear where they stand: other blends than the linear one, and what people perceive.
 
-About weights w a blend's readings r change with other weights v as
+About weights w the readings r of mixes change with other weights v as
 
     r(v) ~ r(w) + sum_i v_i D_i        D_i = d/de r((1 - e) w + e e_i),   sum_i w_i D_i = 0
 
@@ -9,16 +9,16 @@ Newton's method. D_i is read off small tables, which know how a mix changes (`Sm
 there from the full table is read off that when no step is left, and added from then on.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection
+from functools import cached_property, partial
 
 import numpy as np
-from jaxtyping import Float64, Int
+from jaxtyping import Int
 
-from ..instruments import Reader, read_table
-from ..look import Looks
-from ..recipes import Blend, Mixer, Recipe
+from ..recipes import Blend, Recipe
 from .programme import Goals, Weights, solve
-from .wishes import Wishes
+from .reader import MixReader, Reading, SmallReader
+from .wishes import Values, Wishes
 
 N_ROUNDS = 6
 """Of steps by small tables, each ended by a look at the full one."""
@@ -31,29 +31,37 @@ SHARES = (1.0, 0.5, 0.25)
 """Of a step, which are tried in turn until one is an improvement."""
 MISSED = 1e3
 """What a wish costs that is missed by the most that a material does, where another material altogether costs 2."""
+SMALL = 1e-3
+"""Of a change, as far as which the readings are taken for straight: those of instruments are, what people perceive nearly."""
 
 Among = Int[np.ndarray, " n"]
 """The materials that may be taken, in the library's order."""
-Near = Callable[[Float64[np.ndarray, "N n_instruments 3"]], Weights | None]
+Near = Callable[[Values], Weights | None]
 
 
 class Linearised:
-    """The readings of a blend's mixes about some weights, as far as wishes ask for them."""
+    """The readings of a blend's mixes about some weights, as far as wishes ask for them, and what is asked ``also``."""
 
     def __init__(
         self,
         wishes: Wishes,
         recipe: Callable[[Weights], Recipe],
-        mixer: Mixer,
-        looks: Looks,
+        reader: MixReader,
         blend: Blend,
+        *,
+        also: Collection[str] = (),
     ) -> None:
         self._wishes = wishes
+        self._names = {*wishes.names, *also}
         self._recipe = recipe
-        self._mixer = mixer
-        self._reader = Reader.of(wishes.instruments(), looks.tables.grid)
-        self._mixes = looks.tables.on(self._reader.columns)
+        self._reader = reader
         self._blend = blend
+        self.values = reader.values
+        self.is_linear = reader.is_linear(blend)
+
+    @cached_property
+    def _of_small(self) -> SmallReader:
+        return SmallReader(self._names, self._reader)
 
     def approach(
         self, weights: Weights, near: Near, among: Among, *, draft: bool = False
@@ -78,6 +86,14 @@ class Linearised:
                 break
             offset = readings - self._small(weights)
         return best, least
+
+    def corrected(self, weights: Weights) -> Weights | None:
+        """The weights that have what is wished for and differ little from others, of the same materials; None where steps find none."""
+        if self._wishes.missed(self.readings(weights)) <= 1:
+            return weights
+        near = partial(self._least_change, weights=weights)
+        found, missed = self.approach(weights, near, np.flatnonzero(weights))
+        return found if missed <= 1 else None
 
     def _steps(
         self, weights: Weights, near: Near, among: Among, offset: np.ndarray, enough: float
@@ -104,26 +120,30 @@ class Linearised:
                 free = False
         return weights
 
-    def readings(self, weights: Weights) -> Float64[np.ndarray, "n_instruments 3"]:
-        """Read off the mixed table."""
-        return read_table(self._mixer.mix(self._recipe(weights)))
+    def readings(self, weights: Weights) -> Reading:
+        """Of the mix, in full."""
+        return self._reader.of(self._recipe(weights))
 
-    def _about(self, weights: Weights, among: Among) -> Float64[np.ndarray, "N n_instruments 3"]:
+    def about(self, weights: Weights) -> Values:
+        """What the readings of each material are to the mix about these weights."""
+        offset = self.readings(weights) - self._small(weights)
+        return self._about(weights, np.arange(len(weights))) + offset
+
+    def _about(self, weights: Weights, among: Among) -> Values:
         """What the readings of each material are to the mix about these weights; NaN of one that takes no part."""
         part = np.union1d(among, np.flatnonzero(weights))
-        mixed, changes = self._mixes.about(weights, self._blend, part)
-        own = self._reader.read(mixed)
+        mixed, changes = self._of_small.mixes.about(weights, self._blend, part)
+        own = self._of_small.read(mixed)
+        moved = self._of_small.read(mixed + np.float32(SMALL) * changes)
         about = np.full((len(weights), *own.shape), np.nan)
-        about[part] = own + self._reader.read(changes)
+        about[part] = own + (moved - own) / SMALL
         return about
 
-    def _small(self, weights: Weights) -> Float64[np.ndarray, "n_instruments 3"]:
+    def _small(self, weights: Weights) -> Reading:
         dense = np.broadcast_to(weights, (3, 1, len(weights)))
-        return self._reader.read(self._mixes.mix(dense, self._blend)[:, 0])
+        return self._of_small.read(self._of_small.mixes.mix(dense, self._blend)[:, 0])
 
-    def _least_change(
-        self, about: Float64[np.ndarray, "N n_instruments 3"], weights: Weights
-    ) -> Weights | None:
+    def _least_change(self, about: Values, weights: Weights) -> Weights | None:
         """The weights that have what is wished for, by the readings about others, and differ least from these."""
         n = len(weights)
         stay = Goals(np.eye(n) - weights[:, None], np.ones(n), np.ones(n))

@@ -8,15 +8,13 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from jaxtyping import Float64
 
-from ..brdf import TabularBrdf
 from ..errors import OutOfReachError
-from ..instruments import read_table
 from ..recipes import Blend, Recipe
 from .newton import Linearised, Near
 from .programme import Goals, Weights, solve
 from .recolour import holding, with_colour
 from .reference import Like, Reference
-from .wishes import Wishes
+from .wishes import Values, Wishes
 
 if TYPE_CHECKING:
     from .control import Control
@@ -58,39 +56,41 @@ class Search:
         held = holding(wishes, self.reference.readings, release)
         scaled = None
         if held is not None:
-            found = self._mix(held, thorough=False)
+            found = self.mix(held, thorough=False)
             if found.missed <= 1:
                 return found.recipe
             scaled = self._recoloured(wishes)
             if scaled and self._missed(held, scaled) <= 1:
                 return scaled
-        found = self._mix(wishes, clamp=clamp and scaled is None)
+        found = self.mix(wishes, clamp=clamp and scaled is None)
         if found.missed <= 1 or (scaled is None and (clamp or self.draft)):
             return found.recipe
-        if scaled is None and found.recipe is not None:
+        # Of linear mixes it can be said how far each wish goes.
+        if scaled is None and found.recipe is not None and self.blend is not Blend.LINEAR:
             raise OutOfReachError(
                 f"no mix by the blend {str(self.blend)!r} near to the linear one has {wishes}: the nearest that was found is "
                 f"{found.missed:.3g} times too far off. Ask for less, take --blend linear, or this one with --clamp."
             )
         return scaled
 
-    def _mix(self, wishes: Wishes, *, clamp: bool = False, thorough: bool = True) -> Found:
+    def mix(self, wishes: Wishes, *, clamp: bool = False, thorough: bool = True) -> Found:
         """The nearest mix of materials; with ``clamp`` there always is one, and not linear it is only tried for if ``thorough``."""
         differences = self.control.nearness.scaled(self.reference.numbers, held=wishes.held())
         near = partial(_nearest, wishes, differences, few=self.few)
-        # Another blend may have what no linear mix has: it begins at the nearest of those.
-        is_linear = self.blend is Blend.LINEAR
-        weights = near(self.control.readings.values, clamp=clamp or not is_linear)
+        mixes = self.control.mixes(wishes, self.blend)
+        # What is not linear may have what no mix would have if it were: it begins at the nearest of those.
+        weights = near(mixes.values, clamp=clamp or not mixes.is_linear)
         if weights is None:
             return Found(None, np.inf)
-        if is_linear or not list(wishes.each()):
+        if mixes.is_linear or not wishes.names:
             return Found(self._recipe(weights), 0.0)
-        return self._approached(wishes, weights, partial(near, clamp=True), thorough=thorough)
+        clamped = partial(near, clamp=True)
+        return self._approached(mixes, weights, clamped, thorough=thorough)
 
-    def _approached(self, wishes: Wishes, weights: Weights, near: Near, *, thorough: bool) -> Found:
+    def _approached(
+        self, mixes: Linearised, weights: Weights, near: Near, *, thorough: bool
+    ) -> Found:
         """By steps from the linear mix; nearly always those materials do that it has, and a step among all takes several times as long."""
-        control = self.control
-        mixes = Linearised(wishes, self._recipe, control.mixer, control.looks, self.blend)
         names = self.control.library.names
         known = self.like.dense(names).any(axis=0) if isinstance(self.like, Recipe) else 0
         among = np.flatnonzero(known + weights)
@@ -106,15 +106,13 @@ class Search:
         if isinstance(self.like, Recipe) and not list(others.each()):
             recipe = self.like.unscaled()
         else:
-            recipe = self._mix(others).recipe
-        scaled = recipe and with_colour(recipe, self._table(recipe), wishes.exact["body"])
+            recipe = self.mix(others).recipe
+        table = partial(self.control.reader().table, draft=self.draft)
+        scaled = recipe and with_colour(recipe, table(recipe), wishes.exact["body"])
         return scaled if scaled and self._missed(wishes, scaled) <= 1 else None
 
     def _missed(self, wishes: Wishes, recipe: Recipe) -> float:
-        return wishes.missed(read_table(self._table(recipe)))
-
-    def _table(self, recipe: Recipe) -> TabularBrdf:
-        return self.control.table(recipe, draft=self.draft)
+        return wishes.missed(self.control.reader(wishes.names).of(recipe, draft=self.draft))
 
     def _recipe(self, weights: Weights) -> Recipe:
         return self.control.recipe(weights, self.blend)
@@ -123,7 +121,7 @@ class Search:
 def _nearest(
     wishes: Wishes,
     differences: Float64[np.ndarray, "N d"],
-    readings: Float64[np.ndarray, "N n_instruments 3"],
+    readings: Values,
     *,
     few: bool,
     clamp: bool,

@@ -2,17 +2,23 @@
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
+from functools import partial
 from typing import Any
 
 import numpy as np
 from jaxtyping import Float64
 
 from ..errors import ControlError
-from ..instruments import Attribute, Condition, attribute
+from ..instruments import ATTRIBUTES, Attribute, Condition
+from ..instruments import attribute as among
+from ..people import QUALITIES
 from .programme import Goals
 
-Values = Float64[np.ndarray, "N n_instruments 3"]
+Values = Float64[np.ndarray, "N n_readings 3"]
 """Readings of N materials."""
+WISHED: Mapping[str, Attribute] = {**ATTRIBUTES, **QUALITIES}
+"""What can be wished for: what instruments read, and what people perceive."""
+attribute = partial(among, among=WISHED)
 SIGNS = {"exact": "=", "at_most": "at most", "at_least": "at least"}
 
 
@@ -53,6 +59,11 @@ class Wishes:
             for name, target in getattr(self, kind).items():
                 yield kind, name, target
 
+    @property
+    def names(self) -> set[str]:
+        """Of the attributes that are wished for."""
+        return {name for _, name, _ in self.each()}
+
     def without(self, kind: str, name: str) -> "Wishes":
         """The others."""
         rest = {
@@ -65,10 +76,6 @@ class Wishes:
         asked = [attribute(name).group for _, name, _ in self.each()]
         return [group for group in ("reflections", "colour") if group not in asked]
 
-    def instruments(self) -> set[str]:
-        """Those that read what is asked for."""
-        return {each for _, name, _ in self.each() for each in attribute(name).instruments}
-
     def only(self, name: str) -> "Wishes":
         """The exact one called ``name``, if there is one."""
         return Wishes({n: t for n, t in self.exact.items() if n == name})
@@ -79,7 +86,7 @@ class Wishes:
         missed = goals.above @ np.maximum(goals.rows, 0) + goals.below @ np.maximum(-goals.rows, 0)
         return int(np.nan_to_num(missed, nan=np.inf).argmin())
 
-    def missed(self, readings: Float64[np.ndarray, "n_instruments 3"]) -> float:
+    def missed(self, readings: Float64[np.ndarray, "n_readings 3"]) -> float:
         """By how much a material misses the worst of them, where `Attribute.close` is 1."""
         worst = 0.0
         for kind, name, target in self.each():
@@ -130,7 +137,7 @@ class Wishes:
 def row_of(condition: Condition, readings: Values) -> np.ndarray:
     """The condition on a mix of materials with these readings, as a sum over its weights that is to be 0, or less."""
     # What is not asked about may be NaN.
-    asked = condition.coefficients.any(axis=1)
+    asked = np.flatnonzero(condition.coefficients.any(axis=1))
     products = np.einsum("nfc,fc->n", readings[:, asked], condition.coefficients[asked])
     return products - condition.constant  # the weights sum to 1
 

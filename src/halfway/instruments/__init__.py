@@ -1,6 +1,7 @@
 """What instruments read off a table, and the attributes that are functions of it: numbers that people use of a material."""
 
 from .attribute import Attribute, Condition
+from .functionals import INSTRUMENTS
 from .readings import Reader, Readings, read_table
 from .registry import (
     ATTRIBUTES,
@@ -14,6 +15,7 @@ from .registry import (
 
 __all__ = [
     "ATTRIBUTES",
+    "INSTRUMENTS",
     "Attribute",
     "Condition",
     "Reader",

@@ -71,12 +71,13 @@ class Reader(NamedTuple):
     """Of these columns, theta_h first."""
 
     @classmethod
-    def of(cls, names: Collection[str], grid: Grid) -> "Reader":
-        """The instruments of these names, at tables on ``grid``."""
+    def of(cls, names: Collection[str], grid: Grid, *, whole: bool = False) -> "Reader":
+        """The instruments of these names, at tables on ``grid``; with all columns of ``whole`` ones."""
         which = [i for i, name in enumerate(INSTRUMENTS) if name in names]
         rows = [_of_grid(grid)[i] for i in which]
         n = grid.size // grid.axis("theta_h").size
-        columns = np.unique(np.concatenate([row.cells for row in rows]) % n)
+        needed = [np.arange(n)] if whole else [row.cells % n for row in rows]
+        columns = np.unique(np.concatenate(needed))
         few = [
             row._replace(cells=row.cells // n * len(columns) + columns.searchsorted(row.cells % n))
             for row in rows
@@ -90,7 +91,8 @@ class Reader(NamedTuple):
         *many, _, _ = values.shape
         readings = np.full((len(INSTRUMENTS), *many, 3), np.nan)
         channels = values.reshape(-1, values.shape[-1])
-        readings[self.which] = _read(self.functionals, channels).reshape(-1, *many, 3)
+        if self.which:
+            readings[self.which] = _read(self.functionals, channels).reshape(-1, *many, 3)
         return np.moveaxis(readings, 0, -2)
 
 

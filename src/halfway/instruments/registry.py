@@ -125,7 +125,7 @@ MAIN = (
 """Those that say in a few lines what a material is like."""
 
 
-def attribute(name: str) -> Attribute:
+def attribute(name: str, among: Mapping[str, Attribute] = ATTRIBUTES) -> Attribute:
     """The attribute called ``name``.
 
     Raises
@@ -133,15 +133,13 @@ def attribute(name: str) -> Attribute:
     ControlError
         When there is none.
     """
-    if name not in ATTRIBUTES:
-        near = get_close_matches(name, ATTRIBUTES, n=2, cutoff=0.6)
+    if name not in among:
+        near = get_close_matches(name, among, n=2, cutoff=0.6)
         hint = (
-            f"did you mean {' or '.join(near)}?"
-            if near
-            else f"expected one of {', '.join(ATTRIBUTES)}."
+            f"did you mean {' or '.join(near)}?" if near else f"expected one of {', '.join(among)}."
         )
         raise ControlError(f"there is no attribute {name!r}: {hint}")
-    return ATTRIBUTES[name]
+    return among[name]
 
 
 def attributes(what: Brdf | Recipe | str, *, library: str = "") -> dict[str, Any]:

@@ -30,6 +30,7 @@ from ..library import Library
 from ..models import builtin
 from ..tasks import HERE, Work
 from .networks import networks
+from .quality import Read, Reading, with_qualities
 
 N_PAIRS = 8192
 """Of directions, spread evenly over the cells of a MERL table; those above the horizon count."""
@@ -111,15 +112,24 @@ class Perception:
         mapped = np.log((values + EPSILON) / (self.median + EPSILON)) - self.mean
         return np.nan_to_num(mapped) @ self.axes
 
+    def read(self, readings: Read, brdf: Brdf) -> Reading:
+        """The readings of instruments of a material, and after them those of `halfway.people.QUALITIES`."""
+        return with_qualities(readings, _values(lightness(self.scores(samples(brdf)))))
+
     def perceived(self, brdf: Brdf) -> dict[str, Perceived]:
         """How people would perceive a material, by the name of the attribute."""
         x = lightness(self.scores(samples(brdf)))
         margin = MARGIN * np.ptp(self.rated, axis=0)
         was_rated = bool(((x >= self.rated[0] - margin) & (x <= self.rated[1] + margin)).all())
         return {
-            name: Perceived(float(network.of(x)), _trust(name, was_rated))
-            for name, network in networks().items()
+            name: Perceived(value, _trust(name, was_rated))
+            for name, value in zip(networks(), _values(x).tolist(), strict=True)
         }
+
+
+def read_library(readings: Read, library: Library, *, work: Work = HERE) -> Reading:
+    """The readings of instruments of all materials of a library, and after them those of `halfway.people.QUALITIES`."""
+    return with_qualities(readings, _values(lightness(library_scores(library, work=work))))
 
 
 def library_scores(
@@ -149,6 +159,12 @@ def lightness(scores: Scores) -> Float64[np.ndarray, "*k n_components"]:
     """L*/100 of each component, of which the three channels are a colour."""
     luminance = np.einsum("...cj,c->...j", scores, LUMINANCE)
     return (116 * response(luminance) - 16) / 100
+
+
+def _values(
+    x: Float64[np.ndarray, "*k n_components"],
+) -> Float64[np.ndarray, "*k n_networks"]:
+    return np.stack([network.of(x) for network in networks().values()], axis=-1)
 
 
 def _trust(name: str, was_rated: bool) -> str:
