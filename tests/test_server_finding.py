@@ -79,6 +79,18 @@ def test_what_is_asked_for_is_found(client: TestClient, blend: Blend) -> None:
     assert rough["recipe"]["blend"] == full["recipe"]["blend"] == str(blend)
 
 
+@pytest.mark.parametrize("draft", [False, True])
+def test_what_people_perceive_is_found_beside_a_number(client: TestClient, draft: bool) -> None:
+    asked = {"metallic": 0.3, "albedo": 0.3}
+    answer = found(client, set=asked, draft=draft, ranges=["gloss60"])
+    table = mix(LIBRARY, Recipe.from_json(answer["recipe"]))
+    has = Perception.of(LIBRARY).perceived(table)["metallic"].value
+    assert_allclose(has, 0.3, atol=0.03 if draft else 0.01)
+    assert_allclose(answer["attributes"]["metallic"], has, atol=0.03 if draft else 1e-6)
+    assert_allclose(attributes(table)["albedo"], 0.3, atol=0.005 if draft else 0.001)
+    assert (answer["missed"], answer["ranges"]) == ([], {})
+
+
 @pytest.mark.parametrize("asked", [{}, {"gloss60": 6.0}])
 def test_a_draft_mixes_no_full_table(asked: dict[str, float]) -> None:
     # A mixer that cannot: it knows no such material.
@@ -111,6 +123,7 @@ def test_a_colour_alone_is_ranged_beside_the_lightness_that_there_is(client: Tes
 def test_out_of_reach_the_nearest_is_found(client: TestClient) -> None:
     most = reach(LIBRARY, "gloss60").high
     answer = found(client, set={"gloss60": 2 * most}, ranges=["gloss60", "haze"])
+    assert answer["missed"] == ["gloss60"]
     assert_allclose(answer["attributes"]["gloss60"], most, rtol=1e-6)
     # No mix has that, so nothing can go anywhere beside it.
     assert list(answer["ranges"]) == ["gloss60"]

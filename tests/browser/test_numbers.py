@@ -11,6 +11,7 @@ from playwright.sync_api import expect
 from halfway import attributes, mix
 from halfway.colour import to_hex
 from halfway.library import ProceduralLibrary
+from halfway.people import Perception
 from halfway.recipes import Recipe
 
 SIZE = {"width": 1280, "height": 900}
@@ -113,7 +114,9 @@ def test_another_body_colour_is_asked_for_and_got_side_by_side(
     expect(page.locator(".answer .note")).not_to_contain_text("Given up")
 
 
-def test_how_people_would_perceive_it_is_a_switch_away(explorer: Explorer) -> None:
+def test_how_people_would_perceive_it_is_a_switch_away_and_can_be_asked_for(
+    explorer: Explorer, library: ProceduralLibrary
+) -> None:
     page = explorer.page
     page.set_viewport_size(SIZE)
     explorer.open(HALFWAY)
@@ -122,10 +125,15 @@ def test_how_people_would_perceive_it_is_a_switch_away(explorer: Explorer) -> No
     page.locator(".perceived summary").click()
     metallic = rows.filter(has_text="metallic")
     expect(metallic).to_have_attribute("data-trust", re.compile("high|fair|low"))
-    before = metallic.text_content() or ""
+    field = metallic.get_by_role("spinbutton")
+    before = field.input_value()
     # It is that of what is shown.
     explorer.set_t(0)
-    expect(metallic).not_to_have_text(before)
+    expect(field).not_to_have_value(before)
+    ask(explorer, "metallic", "0.6")
+    found = Perception.of(library).perceived(mix(library, taken(explorer)))["metallic"]
+    assert_allclose(found.value, 0.6, atol=0.01)
+    expect(metallic).to_contain_text(found.trust)
 
 
 def test_another_blend_has_it_too(explorer: Explorer, library: ProceduralLibrary) -> None:

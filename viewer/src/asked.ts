@@ -59,20 +59,15 @@ export function asking(
   return Object.fromEntries([...next].filter(([each]) => !needs(each) || next.has(needs(each))));
 }
 
-/** Those that were not found, as no mix has them all. */
-export function missed(
-  set: Wishes,
-  has: Readonly<Record<string, number | null>>,
-  attributes: readonly AttributeView[],
-): readonly string[] {
-  return attributes
-    .filter(({ name, close }) => {
-      const [wanted, present] = [set[name], has[name]];
-      return (
-        typeof wanted === "number" && (typeof present !== "number" || Math.abs(present - wanted) > close)
-      );
-    })
-    .map(({ name }) => name);
+/** The number that is asked for; null where none is. */
+export function numberIn(asked: Asked | null, name: string): number | null {
+  const wanted = asked?.set[name];
+  return typeof wanted === "number" ? wanted : null;
+}
+
+/** What an attribute is called where there is little room. */
+export function called(name: string): string {
+  return LABELS[name] ?? name.replaceAll("_", " ");
 }
 
 /** What was found, as one of the shortlist would be. */
@@ -83,7 +78,7 @@ export function foundAs(name: string, set: Wishes, recipe: RecipeDocument): Kept
 
 /** What should have stayed as it was, from what to what; empty where all did. */
 export function givenUp({ given_up }: FoundView): string {
-  return given_up.map(({ name, was, now }) => `${LABELS[name] ?? name} ${was} to ${now}`).join(", ");
+  return given_up.map(({ name, was, now }) => `${called(name)} ${was} to ${now}`).join(", ");
 }
 
 /** A value that is asked for, as it is written in names and commands. */

@@ -1,10 +1,10 @@
 import { expect, test } from "vitest";
 
 import type { AttributeView } from "../src/api/schema";
-import { asking, foundAs, missed, sliderOf } from "../src/asked";
+import { asking, foundAs, sliderOf } from "../src/asked";
 
 function attribute(name: string, needs = ""): AttributeView {
-  return { name, label: name, unit: "", close: 0.1, needs, values: [] };
+  return { name, label: name, unit: "", needs, values: [] };
 }
 
 const ATTRIBUTES = [attribute("gloss60"), attribute("L"), attribute("b", "L")];
@@ -24,11 +24,6 @@ test("a number that says nothing alone brings the other one along as it is, and 
   expect(asking({ L: 50 }, "b", 20, ATTRIBUTES, HAS)).toEqual({ L: 50, b: 20 });
   expect(asking(warmer, "L", null, ATTRIBUTES, HAS)).toEqual({});
   expect(asking(warmer, "b", null, ATTRIBUTES, HAS)).toEqual({ L: 40 });
-});
-
-test("what is missed by more than is near enough is said", () => {
-  expect(missed({ gloss60: 5.05, L: 42 }, HAS, ATTRIBUTES)).toEqual(["L"]);
-  expect(missed({ gloss60: 5 }, { gloss60: null }, ATTRIBUTES)).toEqual(["gloss60"]);
 });
 
 test("what comes of it says what was asked for", () => {

@@ -92,9 +92,16 @@ class Control:
         start = self._start(wishes, mixes)
         return None if start is None else Walk(wanted, wishes, mixes).range(start)
 
-    def attributes(self, recipe: Recipe, *, draft: bool = False) -> dict[str, Any]:
-        """The attributes of a recipe of the library, by name; of a linear one without its table, and in a ``draft`` by its small one."""
-        return of_readings(self._reader.of(recipe, draft=draft))
+    def attributes(
+        self, recipe: Recipe, *, draft: bool = False, also: Collection[str] = ()
+    ) -> dict[str, Any]:
+        """The attributes of a recipe of the library, by name; of a linear one without its table, and in a ``draft`` by its small one.
+
+        So are perceived qualities among those that are asked for ``also``.
+        """
+        read = self.reader(also).of(recipe, draft=draft)
+        perceived = {n: float(each.of(read)) for n, each in QUALITIES.items() if n in also}
+        return {**of_readings(read), **perceived}
 
     def perceived(self, recipe: Recipe) -> dict[str, Perceived]:
         """How people would perceive a recipe of the library, by name."""

@@ -96,6 +96,11 @@ class Wishes:
             worst = max(worst, float(np.max(by)) / wanted.close)
         return worst
 
+    def missing(self, has: Mapping[str, Any]) -> list[str]:
+        """The names of the exact numbers that are not what a material has, nearly enough."""
+        wanted = [attribute(name) for name in self.exact if attribute(name).is_number]
+        return [a.name for a in wanted if not abs(has[a.name] - self.exact[a.name]) <= a.close]
+
     def goals(self, readings: Values, *, missed: float = np.inf) -> Goals:
         """The goals for materials with these readings.
 

@@ -10,7 +10,7 @@ from ..brdf import TabularBrdf
 from ..colour import Rgb, ciede2000, to_hex, to_lab
 from ..control import Control, Wishes
 from ..instruments import ATTRIBUTES, Attribute, attribute
-from ..people import Perception
+from ..people import QUALITIES, Perception
 from ..recipes import Recipe
 from .schema import (
     AttributesView,
@@ -24,6 +24,7 @@ from .schema import (
 )
 
 _NUMBERS = [each for each in ATTRIBUTES.values() if each.is_number]
+_ASKED = [*(each.name for each in _NUMBERS), *QUALITIES]
 
 
 def attributes_view(control: Control) -> AttributesView:
@@ -36,7 +37,6 @@ def _view(wanted: Attribute, control: Control) -> AttributeView:
         name=wanted.name,
         label=wanted.label,
         unit=wanted.unit,
-        close=wanted.close,
         needs=wanted.needs,
         values=[_or_none(value) for value in np.asarray(wanted.of(control.readings.values))],
     )
@@ -46,15 +46,17 @@ def found_view(control: Control, like: Recipe, wanted: Wanted) -> FoundView:
     """The recipe that misses least of what is wanted; without any wishes the one that it shall be like."""
     wishes = Wishes.of(wanted.set)
     recipe = _found(control, wishes, like, wanted) if wanted.set else like
-    has = control.attributes(recipe, draft=wanted.draft)
+    has = control.attributes(recipe, draft=wanted.draft, also=wishes.names)
     lost = {} if wanted.draft else control.given_up(has, wishes, like)
     return FoundView(
         recipe=RecipeDocument.model_validate(recipe.to_json()),
-        attributes={each.name: _or_none(has[each.name]) for each in _NUMBERS},
+        attributes={name: _or_none(has[name]) for name in _ASKED if name in has},
+        missed=[] if wanted.draft else wishes.missing(has),
         body=to_hex(has["body"]),
         difference=_difference(wishes.exact.get("body"), has["body"]),
         given_up=[_given_up(name, *values) for name, values in lost.items()],
-        ranges=_ranges(control, wanted, has),
+        # Beside what people perceive a range takes seconds.
+        ranges={} if wishes.names & set(QUALITIES) else _ranges(control, wanted, has),
     )
 
 

@@ -203,8 +203,6 @@ class AttributeView(Model):
     name: str
     label: str
     unit: str
-    close: float
-    """How near to a number that is asked for is near enough."""
     needs: str
     """Another attribute that has to be asked for beside it; none if empty."""
     values: list[float | None]
@@ -218,7 +216,7 @@ class AttributesView(Model):
 
 
 class Wanted(Model):
-    """A recipe that is like another one, and has these attributes."""
+    """A recipe that is like another one, and has these attributes and perceived qualities."""
 
     like: RecipeDocument
     """Its blend is that of both."""
@@ -245,7 +243,9 @@ class FoundView(Model):
 
     recipe: RecipeDocument
     attributes: dict[str, float | None]
-    """That it has."""
+    """That it has, with the perceived qualities that are wanted."""
+    missed: list[str]
+    """The numbers that are wanted and that it does not have, nearly enough; empty in a draft."""
     body: str
     """The body colour that it has, as #rrggbb."""
     difference: float | None
@@ -253,7 +253,7 @@ class FoundView(Model):
     given_up: list[GivenUp]
     """What of the highlight, or the colour, was held and could not be; empty in a draft."""
     ranges: dict[str, tuple[float, float]]
-    """How far each goes with the others held, of linear mixes; without those that no mix has beside them."""
+    """How far each goes with the others held, of linear mixes; without those that no mix has beside them, and none beside perceived qualities."""
 
 
 class AlikeView(Model):

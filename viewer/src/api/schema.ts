@@ -139,7 +139,6 @@ export interface AttributeView {
   readonly name: string;
   readonly label: string;
   readonly unit: string;
-  readonly close: number;
   readonly needs: string;
   readonly values: readonly (number | null)[];
 }
@@ -149,7 +148,7 @@ export interface AttributesView {
   readonly attributes: readonly AttributeView[];
 }
 
-/** A recipe that is like another one, and has these attributes. */
+/** A recipe that is like another one, and has these attributes and perceived qualities. */
 export interface Wanted {
   readonly like: RecipeDocument;
   readonly set: Readonly<Record<string, number | string>>;
@@ -169,6 +168,7 @@ export interface GivenUp {
 export interface FoundView {
   readonly recipe: RecipeDocument;
   readonly attributes: Readonly<Record<string, number | null>>;
+  readonly missed: readonly string[];
   readonly body: string;
   readonly difference: number | null;
   readonly given_up: readonly GivenUp[];

@@ -1,10 +1,21 @@
 // What instruments would read off the material, as sliders: a number that is moved, or written, is asked for until it is let go.
 
 import type { AttributeView, FoundView } from "../../api/schema";
-import { type Asked, BODY, givenUp, inDigits, LABELS, missed, sliderOf, written } from "../../asked";
+import {
+  type Asked,
+  BODY,
+  called,
+  givenUp,
+  inDigits,
+  LABELS,
+  numberIn,
+  sliderOf,
+  written,
+} from "../../asked";
 import type { Context } from "../../context";
-import { el, iconButton } from "../../dom";
+import { el } from "../../dom";
 import { SLIDERS } from "../../measuring";
+import { dial } from "./dial";
 import { perceivedNumbers } from "./perceived";
 
 export function numberSliders(context: Context): HTMLElement {
@@ -14,12 +25,12 @@ export function numberSliders(context: Context): HTMLElement {
   const element = el("div.numbers", list, perceivedNumbers(context), note);
   store.watch(["attributes"], ({ attributes }) => {
     const dials = SLIDERS.flatMap((name) => attributes?.find((each) => each.name === name) ?? []);
-    list.replaceChildren(...dials.map((attribute) => dial(context, attribute)));
+    list.replaceChildren(...dials.map((attribute) => numberDial(context, attribute)));
     if (attributes === null) list.append(el("li.note", "Reading the materials …"));
   });
-  store.watch(["asked", "numbers", "counting"], ({ asked, numbers, counting, attributes }) => {
+  store.watch(["asked", "numbers", "counting"], ({ asked, numbers, counting }) => {
     element.classList.toggle("behind", counting);
-    const names = asked && numbers ? missed(asked.set, numbers.attributes, attributes ?? []) : [];
+    const names = asked && numbers ? numbers.missed.filter((name) => name in asked.set) : [];
     note.classList.toggle("problem", !counting && names.length > 0);
     if (counting) note.textContent = asked ? "Finding it …" : "";
     else if (names.length > 0)
@@ -39,61 +50,25 @@ function priceOf({ set }: Asked, numbers: FoundView): string {
 function inWords(names: readonly string[], { set }: Asked, { attributes }: FoundView): string {
   const one = (name: string) => {
     const has = attributes[name];
-    return `${LABELS[name] ?? name} ${typeof has === "number" ? inDigits(has) : "none"}, not ${written(set[name]!)}`;
+    return `${called(name)} ${typeof has === "number" ? inDigits(has) : "none"}, not ${written(set[name]!)}`;
   };
   return names.map(one).join(", ");
 }
 
 /** One number: where it is, how far it goes with the others held, and whether it is asked for. */
-function dial({ store, actions }: Context, { name, label, unit, values }: AttributeView): HTMLElement {
-  const { toShare, toValue } = sliderOf(values);
+function numberDial(context: Context, { name, label, unit, values }: AttributeView): HTMLElement {
   const title = `${label}${unit ? `, ${unit}` : ""}`;
-  const ask = (value: number) => actions.ask(name, Number(value.toPrecision(4)));
-  const free = () => actions.ask(name, null);
-  const slider = el("input", {
-    type: "range",
-    min: 0,
-    max: 1,
-    step: 0.001,
-    "aria-label": title,
-    title: "Double click: let it go",
-    oninput: () => ask(toValue(Number(slider.value))),
-    ondblclick: free,
-  });
-  const value = el("input.field", {
-    type: "number",
+  const { element, show, reach } = dial(context, {
     name,
-    step: "any",
-    "aria-label": `${title}, as a number`,
-    onchange: () => (Number.isFinite(value.valueAsNumber) ? ask(value.valueAsNumber) : free()),
+    label: LABELS[name] ?? label,
+    title,
+    slider: sliderOf(values),
   });
-  const reach = el("i.reach");
-  const release = iconButton("close", `Let ${title} go`, free);
-  const row = el(
-    "li",
-    { title },
-    el("span.cut", LABELS[name] ?? label),
-    el("span.track", reach, slider),
-    value,
-    release,
-  );
-  store.watch(["asked", "numbers", "counting"], ({ asked, numbers, counting }) => {
-    const wanted = asked?.set[name];
-    const has = numbers?.attributes[name];
-    row.dataset.asked = String(wanted !== undefined);
-    release.disabled = wanted === undefined;
-    slider.disabled = value.disabled = numbers === null;
-    const shown = wanted ?? has;
-    const isKnown = typeof shown === "number";
-    slider.value = String(isKnown ? toShare(shown) : 0);
-    if (!value.matches(":focus") || wanted !== undefined) value.value = isKnown ? inDigits(shown) : "";
-    const ends = numbers?.ranges[name];
+  context.store.watch(["asked", "numbers", "counting"], ({ asked, numbers, counting }) => {
+    show(numbers !== null, numbers?.attributes[name] ?? null, numberIn(asked, name));
     // While it moves, the ends are those of before; where no mix has the others, it goes nowhere.
-    reach.hidden = !ends && !counting;
-    if (ends) {
-      reach.style.left = `${100 * toShare(ends[0])}%`;
-      reach.style.right = `${100 * (1 - toShare(ends[1]))}%`;
-    }
+    const ends = numbers?.ranges[name];
+    if (ends || !counting) reach(ends ?? null);
   });
-  return row;
+  return element;
 }

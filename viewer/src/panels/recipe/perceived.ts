@@ -1,27 +1,35 @@
-// How people would perceive the material that is shown, by published networks, each with how far it can be trusted.
+// How people would perceive the material that is shown, by published networks, each with how far it can be trusted; and asked for by that.
 
 import type { PerceivedView, PerceptionView, RecipeDocument } from "../../api/schema";
+import { called, numberIn, sliderOf } from "../../asked";
 import type { Context } from "../../context";
 import { el } from "../../dom";
 import { Refined } from "../../refined";
 import { shownDocument } from "../../shown";
+import { dial } from "./dial";
 
 const WHO = "Perceived, 0 to 1";
 const SOURCE =
   "By the networks of Serrano et al. 2016; trust is how well they can be trusted for such a material";
+const SLIDER = sliderOf([0, 1]);
 
-/** A list that is asked for while it is open, once nothing moves: full tables are mixed. Null where nobody can answer. */
-export function perceivedNumbers({ client, store, actions, signal }: Context): HTMLElement | null {
+/** Sliders that are there while it is open, of what is known once nothing moves: full tables are mixed. Null where nobody can answer. */
+export function perceivedNumbers(context: Context): HTMLElement | null {
+  const { client, store, actions, signal } = context;
   const { perceived } = client;
   if (!perceived) return null;
-  const list = el("ul");
+  const list = el("ul.dials");
   const element = el("details.perceived", el("summary", { title: SOURCE }, WHO), list);
+  const rows = new Map<string, (view: PerceivedView) => void>();
   const asked = new Refined<RecipeDocument, PerceptionView | null>({
     ask: async (recipe, draft, moved) => (draft ? null : perceived(recipe, moved)),
     onAnswer: (answer) => {
       if (answer === null) return;
-      const isFirst = list.childElementCount === 0;
-      list.replaceChildren(...answer.perceived.map(row));
+      const isFirst = rows.size === 0;
+      for (const view of answer.perceived) {
+        if (isFirst) rows.set(view.name, addRow(context, list, view.name));
+        rows.get(view.name)?.(view);
+      }
       if (isFirst) element.scrollIntoView({ block: "nearest" });
     },
     onBehind: (behind) => element.classList.toggle("behind", behind),
@@ -38,16 +46,25 @@ export function perceivedNumbers({ client, store, actions, signal }: Context): H
   return element;
 }
 
-function row({ name, value, trust }: PerceivedView): HTMLElement {
-  const words = name.replaceAll("_", " ");
-  const bar = el("i");
-  bar.style.transform = `scaleX(${Math.min(Math.max(value, 0), 1)})`;
-  return el(
-    "li",
-    { "data-trust": trust, title: `${words}: ${value.toFixed(3)}, trust ${trust}` },
-    el("span.cut", words),
-    el("span.share", bar),
-    el("span", value.toFixed(2)),
-    el("span.quiet", trust),
-  );
+/** Adds a slider; what it gives shows another value. */
+function addRow(context: Context, list: HTMLElement, name: string): (view: PerceivedView) => void {
+  const trust = el("span.quiet");
+  const title = `Perceived: ${called(name)}`;
+  const { element, show } = dial(context, {
+    name,
+    label: called(name),
+    title,
+    slider: SLIDER,
+    beside: trust,
+  });
+  let has: number | null = null;
+  const follow = () => show(true, has, numberIn(context.store.get().asked, name));
+  context.store.watch(["asked"], follow);
+  list.append(element);
+  return (view) => {
+    has = view.value;
+    element.dataset.trust = trust.textContent = view.trust;
+    element.title = `${called(name)}: ${view.value.toFixed(3)}, trust ${view.trust}`;
+    follow();
+  };
 }
