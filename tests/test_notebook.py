@@ -62,6 +62,28 @@ def test_at_a_free_place_the_recipe_is_that_of_the_space(
     assert explorer.recipe.to_json()["weights"] == {"material-0": 1.0}
 
 
+def test_what_the_page_holds_is_the_recipe_until_the_place_changes(
+    explorer: Explorer, small_library: Library
+) -> None:
+    """As the page tells it: beside leaving a free place, and taken back."""
+    weights = {"material-1": 0.5, "material-2": 0.5}
+    held = {
+        "library": small_library.name,
+        "blend": "root",
+        "weights": weights,
+        "body_scale": [1, 2, 1],
+    }
+    explorer.set_state({"point": None, "_held": held})
+    assert explorer.recipe.to_json()["weights"] == weights
+    assert explorer.recipe.body_scale == (1, 2, 1)
+    explorer.set_state({"_held": None})
+    assert explorer.recipe.to_json()["weights"] == {"material-0": 0.5, "material-4": 0.5}
+    explorer.set_state({"_held": {**held, "body_scale": None}})
+    assert explorer.recipe.to_json()["weights"] == weights
+    explorer.t = 0.25
+    assert explorer.recipe.to_json()["weights"] == {"material-0": 0.75, "material-4": 0.25}
+
+
 @pytest.mark.parametrize(
     ("trait", "value", "error", "message"),
     [

@@ -3,17 +3,22 @@
 
 import { Problem } from "./api/client";
 import { kernel, type Messenger } from "./api/kernel";
+import type { RecipeDocument } from "./api/schema";
 import { type Mounted, mount } from "./mount";
 import type { State } from "./state";
 
 /** What the page and Python both hold. */
 const TRAITS = ["space", "blend", "pace", "stops", "point", "t"] as const;
 type Shared = Pick<State, (typeof TRAITS)[number]>;
+/** And what the page alone says: the recipe that it shows instead of the place, or null. */
+const HELD = "_held";
+const TOLD = [...TRAITS, HELD] as const;
+type Told = Shared & { readonly [HELD]: RecipeDocument | null };
 
 /** The part of anywidget's model that we use. */
 interface Model extends Messenger {
-  get<K extends keyof Shared>(name: K): Shared[K];
-  set<K extends keyof Shared>(name: K, value: Shared[K]): void;
+  get<K extends keyof Told>(name: K): Told[K];
+  set<K extends keyof Told>(name: K, value: Told[K]): void;
   save_changes(): void;
   on(event: string, listener: (...parts: never[]) => void): void;
   off(event: string, listener: (...parts: never[]) => void): void;
@@ -52,11 +57,12 @@ function tie(model: Model, { store, actions }: Mounted): () => void {
   const tell = () => {
     timer = undefined;
     const state = store.get();
-    const changed = TRAITS.filter((name) => !same(model.get(name), state[name]));
-    for (const name of changed) model.set(name, state[name]);
+    const told: Told = { ...state, [HELD]: state.held?.recipe ?? null };
+    const changed = TOLD.filter((name) => !same(model.get(name), told[name]));
+    for (const name of changed) model.set(name, told[name]);
     if (changed.length) model.save_changes();
   };
-  store.watch(TRAITS, () => {
+  store.watch([...TRAITS, "held"], () => {
     timer ??= setTimeout(tell, PATIENCE);
   });
   const follow = () => {

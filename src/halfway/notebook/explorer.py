@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from anywidget import AnyWidget
-from traitlets import Float, Instance, List, Unicode, default, observe, validate
+from traitlets import Dict, Float, Instance, List, Unicode, default, observe, validate
 
 from ..cache import user_folder
 from ..errors import HalfwayError, SpaceError
@@ -51,7 +51,8 @@ class Explorer(AnyWidget):
     point : trait, list of float or None
         A free place of the space instead of one on the route: its coordinates as the page has them.
     recipe : trait, Recipe
-        The material that it shows. Read-only; observe it to follow.
+        The material that it shows, on the route, at the free place, or as its page found it by numbers. Read-only; observe it to
+        follow.
     route : Route
         The whole way.
     library : Library
@@ -73,6 +74,8 @@ class Explorer(AnyWidget):
     t = Float().tag(sync=True)
     point = List(Float(), allow_none=True, default_value=None).tag(sync=True)
     recipe = Instance(Recipe, read_only=True)
+    # What the page shows instead of the place: found by numbers, or taken from its shortlist.
+    _held = Dict(allow_none=True, default_value=None).tag(sync=True)
 
     _esm = Unicode().tag(sync=True)
     _css = Unicode().tag(sync=True)
@@ -114,8 +117,15 @@ class Explorer(AnyWidget):
         self.point = None
 
     @observe("space", "blend", "pace", "stops", "t", "point")
+    def _leave_what_is_held(self, change: dict[str, Any]) -> None:
+        if change["new"] is not None:  # the page leaves a free place for what it holds
+            self._held = None
+
+    @observe("space", "blend", "pace", "stops", "t", "point", "_held")
     def _show(self, _: Any) -> None:
-        if self.point is None:
+        if self._held is not None:
+            recipe = Recipe.from_json(self._held)
+        elif self.point is None:
             recipe = self.route.recipe(self.t)
         else:
             asked = Point(space=self.space, blend=self.blend, point=self.point)
