@@ -269,7 +269,10 @@ def test_report_prints_table_1_and_writes_figures(run, lib, tmp_path):
         (["fit", "teflon", "-o", "x.obj"], "names no format of fitted models: expected .mtlx"),
         (["fit", "teflon", "chrome", "-o", "x.mtlx"], "2 materials are given: -o and --picture"),
         (["fit", "teflom"], "'teflom' is not one of the 100 materials"),
-        (["mix", "absent.json", "-o", "x.binary"], "absent.json: No such file or directory"),
+        (
+            ["mix", "absent.json", "-o", "x.binary"],
+            "absent.json is not there: expected a recipe's file. Check",
+        ),
         (["library", "build", "absent", "-o", "x.brdflib"], "absent does not exist"),
         (["render", "absent.binary", "-o", "x.png"], "there is no file absent.binary"),
         (["render", "teflon", "-o", "s3://bucket/frames"], "is a URL: expected a path of this"),

@@ -243,6 +243,10 @@ def _json_file(what: str) -> tuple[Path | None, str]:
 def _read_object(path: Location) -> Mapping[str, Any]:
     try:
         document = json.loads(path.read_text(encoding="utf-8"))
+    except FileNotFoundError:
+        raise RecipeError(
+            f"{path} is not there: expected a recipe's file. Check its name, or make it, such as by `halfway find -o {path.name}`."
+        ) from None
     except RecursionError:
         raise RecipeError(f"{path} nests too deep: expected a recipe's JSON.") from None
     except ValueError as error:
