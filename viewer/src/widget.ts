@@ -12,13 +12,13 @@ const TRAITS = ["space", "blend", "pace", "stops", "point", "t"] as const;
 type Shared = Pick<State, (typeof TRAITS)[number]>;
 /** And what the page alone says: the recipe that it shows instead of the place, or null. */
 const HELD = "_held";
-const TOLD = [...TRAITS, HELD] as const;
-type Told = Shared & { readonly [HELD]: RecipeDocument | null };
+const SAID = [...TRAITS, HELD] as const;
+type Said = Shared & { readonly [HELD]: RecipeDocument | null };
 
 /** The part of anywidget's model that we use. */
 interface Model extends Messenger {
-  get<K extends keyof Told>(name: K): Told[K];
-  set<K extends keyof Told>(name: K, value: Told[K]): void;
+  get<K extends keyof Said>(name: K): Said[K];
+  set<K extends keyof Said>(name: K, value: Said[K]): void;
   save_changes(): void;
   on(event: string, listener: (...parts: never[]) => void): void;
   off(event: string, listener: (...parts: never[]) => void): void;
@@ -57,9 +57,9 @@ function tie(model: Model, { store, actions }: Mounted): () => void {
   const tell = () => {
     timer = undefined;
     const state = store.get();
-    const told: Told = { ...state, [HELD]: state.held?.recipe ?? null };
-    const changed = TOLD.filter((name) => !same(model.get(name), told[name]));
-    for (const name of changed) model.set(name, told[name]);
+    const present: Said = { ...state, [HELD]: state.held?.recipe ?? null };
+    const changed = SAID.filter((name) => !same(model.get(name), present[name]));
+    for (const name of changed) model.set(name, present[name]);
     if (changed.length) model.save_changes();
   };
   store.watch([...TRAITS, "held"], () => {
