@@ -8,7 +8,7 @@ import { Refined } from "../../refined";
 import { shownDocument } from "../../shown";
 import { dial } from "./dial";
 
-const WHO = "Perceived, 0 to 1";
+const WHO = "Perceived, 0 to 1, and trust in it";
 const SOURCE =
   "By the networks of Serrano et al. 2016; trust is how well they can be trusted for such a material";
 const SLIDER = sliderOf([0, 1]);
