@@ -130,7 +130,7 @@ def test_how_people_would_perceive_it_is_a_switch_away_and_can_be_asked_for(
     # It is that of what is shown.
     explorer.set_t(0)
     expect(field).not_to_have_value(before)
-    ask(explorer, "metallic", "0.6")
+    explorer.ask("metallic", "0.6")
     found = Perception.of(library).perceived(mix(library, taken(explorer)))["metallic"]
     assert_allclose(found.value, 0.6, atol=0.01)
     expect(metallic).to_contain_text(found.trust)
