@@ -4,17 +4,20 @@ import json
 
 import numpy as np
 import pytest
+from exr_files import exr
 from glossy import GRID, glossy, library
 from numpy.testing import assert_allclose
 from PIL import Image
 
 from halfway import TabularBrdf, attributes, find, mix, reach, write_brdf
 from halfway.cli import main as halfway
+from halfway.cli.arguments import open_like
 from halfway.colour import to_hex
 from halfway.control import Control, Range, Wishes
 from halfway.errors import ControlError, OutOfReachError
 from halfway.instruments import ATTRIBUTES, of_readings, read_table
 from halfway.look import portrait, to_png
+from halfway.look.portraits import PORTRAIT_SCENE
 from halfway.people import QUALITIES, Perception
 from halfway.recipes import Blend, Recipe
 from halfway.space import along
@@ -144,6 +147,17 @@ def test_like_a_picture_of_a_material_is_that_material_at_any_exposure(tmp_path,
     recipe = CONTROL.find(Wishes(), like=str(tmp_path / "sphere.png"))
     # 8 bits, and highlights that are white
     assert recipe.weights[0, recipe.names.index("m2")] > 0.9
+
+
+def test_like_a_picture_in_linear_light_is_that_material(tmp_path):
+    """As the command line opens it; nothing is white in it, and nothing rounded to 8 bits."""
+    size, sphere = PORTRAIT_SCENE.size, PORTRAIT_SCENE.mask()
+    linear = np.zeros((size, size, 3), np.float32)
+    linear[sphere] = 3 * portrait(LIBRARY.brdf("m2").values, GRID)
+    channels = [(name, 2, linear[..., c]) for c, name in enumerate("RGB")]
+    (tmp_path / "sphere.exr").write_bytes(exr(channels))
+    recipe = CONTROL.find(Wishes(), like=open_like(str(tmp_path / "sphere.exr")))
+    assert recipe.weights[0, recipe.names.index("m2")] > 0.99
 
 
 def test_like_a_colour_is_the_mix_with_that_body():

@@ -105,6 +105,13 @@ def parse_lights(text: str) -> np.ndarray:
     return np.array(rows)
 
 
+def open_like(text: str) -> str | np.ndarray | None:
+    """What a recipe shall be like, as `halfway.find` takes it: a picture in linear light is opened, for it takes the renderer's reader."""
+    from ..render import open_environment
+
+    return open_environment(text) if text.lower().endswith((".exr", ".hdr")) else text or None
+
+
 def _is_seen(x: float, y: float, z: float) -> bool:
     return z > 0 or math.hypot(x, y) > 0
 

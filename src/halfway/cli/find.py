@@ -15,6 +15,7 @@ from .outputs import writing
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from ..library import Library
     from ..people import Perceived
     from ..recipes import Recipe
 
@@ -87,11 +88,10 @@ def find(
     halfway find --like scan.binary --set "body=#7a3b1e" -o new.binary  its highlight is held, unless --release gloss60
     """
     from halfway.control import Control, Wishes
-    from halfway.export import write_material, write_recipe
     from halfway.people import QUALITIES
-    from halfway.recipes import Blend, NamedBrdf
+    from halfway.recipes import Blend
 
-    from .arguments import ArgumentError, parse_lights, parse_targets
+    from .arguments import ArgumentError, open_like, parse_lights, parse_targets
 
     wishes = Wishes.of(parse_targets(exactly), parse_targets(at_most), parse_targets(at_least))
     if not like and not list(wishes.each()):
@@ -99,28 +99,36 @@ def find(
             "there is nothing to find: give --set, --at-most, --at-least or --like."
         )
     control = Control.of(lib, lights=parse_lights(lights) if lights else None, work=work())
+    opened = open_like(like)
     recipe = control.find(
         wishes,
-        like=like or None,
+        like=opened,
         blend=Blend(blend or Blend.LINEAR),
         few=few,
         clamp=clamp,
         release=release,
     )
     if output:
-        with writing(output, force=force):
-            if output.suffix == ".json":
-                write_recipe(output, control.library, recipe)
-            else:
-                write_material(output, NamedBrdf.mixed(control.library, recipe, output.stem))
+        _write(output, control.library, recipe, force=force)
     has = control.attributes(recipe)
-    _say_given_up(recipe, like, control.given_up(has, wishes, like or None))
+    _say_given_up(recipe, like, control.given_up(has, wishes, opened))
     seen = control.perceived(recipe) if wishes.names & set(QUALITIES) else {}
     _show(recipe, has, seen, as_json=as_json)
     if output:
         say(
             f"{output}: a mix of {', '.join(recipe.names)}. Next: halfway render {output} -o new.png"
         )
+
+
+def _write(output: Path, library: "Library", recipe: "Recipe", *, force: bool) -> None:
+    from halfway.export import write_material, write_recipe
+    from halfway.recipes import NamedBrdf
+
+    with writing(output, force=force):
+        if output.suffix == ".json":
+            write_recipe(output, library, recipe)
+        else:
+            write_material(output, NamedBrdf.mixed(library, recipe, output.stem))
 
 
 def _say_given_up(recipe: "Recipe", like: str, lost: "Mapping[str, tuple[Any, Any]]") -> None:

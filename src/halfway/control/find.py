@@ -39,9 +39,9 @@ def find(
     ----------
     library : Library or str
         Open, or as `open_library` takes it.
-    like : str, Recipe or Brdf
+    like : str, Recipe, Brdf or array
         What it shall be like: a material of the library, or anything that `attributes` takes; a colour such as ``#7a2a3a``; a
-        picture of a sphere (`halfway.control.pictures`). Without it, the material that has most of what is asked for.
+        picture of a sphere (`halfway.control.pictures`), as a file, or in linear light as an array of shape (n, n, 3). Without it, the material that has most of what is asked for.
     set, at_most, at_least : mapping
         Attributes by name, and their values: numbers, or a colour such as ``#7a2a3a`` for ``body``. So are the perceived
         qualities of `halfway.people.QUALITIES`: about 0 for not at all, 1 for very.

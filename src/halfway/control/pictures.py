@@ -23,9 +23,9 @@ LEAST_SIZE = 24
 
 
 def picture_numbers(
-    path: Path, materials: Float64[np.ndarray, "N n_picture"]
+    picture: Path | np.ndarray, materials: Float64[np.ndarray, "N n_picture"]
 ) -> Float64[np.ndarray, " n_picture"]:
-    """The means of a picture's parts, exposed as ``materials`` are, of which it is taken to be a mix.
+    """The means of the parts of a picture, a file or in linear light, exposed as ``materials`` are, of which it is taken to be a mix.
 
     Raises
     ------
@@ -34,7 +34,8 @@ def picture_numbers(
     """
     from scipy.optimize import nnls
 
-    linear = _read(path)
+    name = str(picture) if isinstance(picture, Path) else "the picture"
+    linear = _square(_read(picture) if isinstance(picture, Path) else picture, name)
     n = len(linear)
     across = (np.arange(n) + 0.5) * 2 / n - 1
     sphere = np.hypot(across, across[:, None]) < 1
@@ -42,11 +43,20 @@ def picture_numbers(
     scale = (means + DARK) ** (2 / 3)
     v, _ = nnls((materials / scale).T, means / scale)
     if not v.any():
-        raise ControlError(f"{path} is black where the sphere would be: expected a lit one.")
+        raise ControlError(f"{name} is black where the sphere would be: expected a lit one.")
     return means / v.sum()
 
 
-def _read(path: Path) -> Float64[np.ndarray, "n n 3"]:
+def _square(linear: np.ndarray, name: str) -> Float64[np.ndarray, "n n 3"]:
+    height, width, *_ = linear.shape
+    if height != width or height < LEAST_SIZE:
+        raise ControlError(
+            f"{name} is {width} x {height} pixels: expected a square, of {LEAST_SIZE} or more, that a sphere fills. Crop it."
+        )
+    return linear.astype(np.float64)
+
+
+def _read(path: Path) -> Float64[np.ndarray, "h w 3"]:
     from PIL import Image, UnidentifiedImageError
 
     try:
@@ -54,9 +64,8 @@ def _read(path: Path) -> Float64[np.ndarray, "n n 3"]:
             pixels = np.asarray(image.convert("RGB"))
     except UnidentifiedImageError:
         raise ControlError(f"{path} is no picture: expected {', '.join(PICTURES)}.") from None
-    height, width, _ = pixels.shape
-    if height != width or height < LEAST_SIZE:
+    except FileNotFoundError:
         raise ControlError(
-            f"{path} is {width} x {height} pixels: expected a square, of {LEAST_SIZE} or more, that a sphere fills. Crop it."
-        )
+            f"{path} is not there: expected a picture of a sphere. Check its name."
+        ) from None
     return from_srgb(pixels / 255)

@@ -15,7 +15,7 @@ from ..recipes import Recipe, split_address
 from .nearness import Nearness
 from .pictures import PICTURES, picture_numbers
 
-Like = str | Recipe | Brdf | None
+Like = str | Recipe | Brdf | np.ndarray | None
 
 
 class Reference(NamedTuple):
@@ -28,9 +28,11 @@ class Reference(NamedTuple):
 
     @classmethod
     def of(
-        cls, like: str | Brdf, library: Library, readings: Readings, nearness: Nearness
+        cls, like: str | Brdf | np.ndarray, library: Library, readings: Readings, nearness: Nearness
     ) -> "Reference":
         """Anything but a recipe of the library."""
+        if isinstance(like, np.ndarray):
+            return cls._of_picture(like, nearness)
         if not isinstance(like, str):
             return cls._of_table(like, nearness)
         if like in library.names:
@@ -39,10 +41,14 @@ class Reference(NamedTuple):
         if (colour := from_hex(like)) is not None:
             return cls(nearness.alone("colour", colour))
         if Path(like).suffix.lower() in PICTURES:
-            materials = nearness.of_group("picture")
-            return cls(nearness.alone("picture", picture_numbers(Path(like), materials)))
+            return cls._of_picture(Path(like), nearness)
         is_addressed = len(split_address(like)) > 1
         return cls._of_table(like, nearness, library="" if is_addressed else library.address)
+
+    @classmethod
+    def _of_picture(cls, picture: Path | np.ndarray, nearness: Nearness) -> "Reference":
+        numbers = picture_numbers(picture, nearness.of_group("picture"))
+        return cls(nearness.alone("picture", numbers))
 
     @classmethod
     def _of_table(cls, what: str | Brdf, nearness: Nearness, *, library: str = "") -> "Reference":
