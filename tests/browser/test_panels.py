@@ -110,7 +110,7 @@ def test_a_stop_is_compared_with(explorer: Explorer) -> None:
     explorer.page.set_viewport_size(SMALL)
     explorer.open("#space=linear&stops=teflon,chrome&t=0&light=points&compare=stop:chrome")
     explorer.wait_until_settled()
-    assert explorer.page.locator(".split").inner_text().split() == ["linear", "chrome"]
+    assert explorer.page.locator(".split").inner_text().split() == ["teflon", "chrome"]
     beside = explorer.drawn()
     explorer.page.locator("[name=compare]").select_option("")
     teflon = explorer.drawn_after(beside)

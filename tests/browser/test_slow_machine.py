@@ -12,7 +12,7 @@ from conftest import Explorer  # pyright: ignore[reportMissingImports]
 from PIL import Image
 
 THROTTLED = 6
-SIZE = {"width": 1440, "height": 900}
+SIZE = {"width": 1180, "height": 800}
 """So large that a sample of the whole picture takes long."""
 SECOND = 1000
 COMMON = "#space=linear&pace=uniform&shape=teapot&stops="
