@@ -36,7 +36,10 @@ from halfway.server.run import listen
 from halfway.tasks import Work
 
 IMAGES = Path(__file__).parent / "images"
-FLAGS = ["--no-sandbox", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist", "--enable-gpu"]
+SOFTWARE = "swiftshader"
+# Without a card the browser itself rasterises the page, and SwiftShader what is drawn by WebGL.
+NO_CARD = ["--disable-gpu", "--enable-unsafe-swiftshader"]
+CARD = ["--ignore-gpu-blocklist", "--enable-gpu"]
 MATERIALS = {"pink-felt": "matte", "cherry-235": "glossy", "chrome": "mirror-like"}
 SPHERE = SCENES["spheres"]
 # As the page has it: under the sphere's lights, and nothing else stands there.
@@ -82,7 +85,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--only", choices=["compare", "screens", "anisotropic", *MEASURES])
     parser.add_argument(
-        "--angle", default="swiftshader", help="what WebGL runs on, as Chromium names it"
+        "--angle", default=SOFTWARE, help="what WebGL runs on, as Chromium names it"
     )
     parser.add_argument("--size", default="460x560", help="of the window that is measured")
     parser.add_argument("--library", default="builtin:merl-abc", help="that is measured")
@@ -93,7 +96,9 @@ def main() -> None:
     library = open_library(given.library)
     with served(library) as address, sync_playwright() as playwright:
         browser = playwright.chromium.launch(
-            executable_path=given.chromium, args=[*FLAGS, f"--use-angle={given.angle}"]
+            executable_path=given.chromium,
+            args=["--no-sandbox", f"--use-angle={given.angle}"]
+            + (NO_CARD if given.angle == SOFTWARE else CARD),
         )
         if only in (None, "compare"):
             compare(browser, address, library)

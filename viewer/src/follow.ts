@@ -133,10 +133,12 @@ function fetchMixes(context: Context): void {
   const own = mixedTable(context, "mixed");
   const other = mixedTable(context, "otherMixed");
   const ghosts = mixedTable(context, "ghostMixed");
-  store.watch(["recipe", "route", "otherRecipe", "otherRoute", "ghost"], (state) => {
+  const moving = ["recipe", "route", "otherRecipe", "otherRoute", "ghost", "asked", "counting"] as const;
+  store.watch(moving, (state) => {
     const document = (recipe: readonly Ingredient[], mixing: Mixing) =>
       recipe.length === 0 || picturesMix(mixing) ? null : toDocument(state.library.name, recipe, mixing);
-    own.want(document(state.recipe, mixingOf(state)));
+    // While numbers are found, the recipe is about to change again.
+    own.want(document(state.recipe, mixingOf(state)), state.asked !== null && state.counting);
     other.want(document(state.otherRecipe, otherMixingOf(state)));
     ghosts.want(state.ghost && document(state.ghost.recipe, state.ghost));
   });

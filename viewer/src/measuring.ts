@@ -31,7 +31,10 @@ export function followNumbers(context: Context): void {
     ask: (question, draft, signal) => find({ ...question, draft, ranges: draft ? [] : SLIDERS }, signal),
     onAnswer: actions.setNumbers,
     onBehind: (counting) => store.set({ counting }),
-    onProblem: (problem) => actions.say("recipe", "numbers", problem),
+    onProblem: (problem) => {
+      actions.say("recipe", "numbers", problem);
+      if (problem !== null) store.set({ counting: false });
+    },
   });
   store.watch(["aside", "map", "asked", "recipe", "route", "atPoint"], (state) =>
     numbers.want(question(state)),

@@ -1,7 +1,8 @@
 // A question that is asked as long as something moves, and answered roughly and soon; and in full when nothing moves any more.
 //
 // One at a time. What is wanted when an answer has come is asked for next, so nothing is ever queued; the full answer is
-// asked for when nothing has moved for a while, and taken back when something does.
+// asked for when nothing has moved for a while, and taken back when something does, or when a change of the question itself is
+// awaited: it would keep the answer busy that the change waits for.
 
 /** Milliseconds without a change after which the full answer is asked for. */
 const STILL = 250;
@@ -18,17 +19,21 @@ export interface Asking<Q, A> {
 
 export class Refined<Q, A> {
   private wanted: Q | null = null;
+  private waits = false;
   private running = false;
   /** What only makes sense while nothing moves. */
   private still = new AbortController();
 
   constructor(private readonly asking: Asking<Q, A>) {}
 
-  /** What is asked from now on; null for nothing. */
-  want(question: Q | null): void {
-    if (JSON.stringify(question) === JSON.stringify(this.wanted)) return;
-    this.wanted = question;
+  /** What is asked from now on; null for nothing. While another question is awaited, the full answer to this one ``waits``. */
+  want(question: Q | null, waits = false): void {
+    const isSame = JSON.stringify(question) === JSON.stringify(this.wanted);
+    if (isSame && waits === this.waits) return;
+    this.waits = waits;
     this.still.abort();
+    if (isSame) return;
+    this.wanted = question;
     this.asking.onBehind(question !== null);
     if (!this.running) void this.run();
   }
@@ -37,25 +42,28 @@ export class Refined<Q, A> {
     this.running = true;
     let question = this.wanted;
     while (question !== null) {
-      this.still = new AbortController();
       const came = await this.fetch(question, true, new AbortController().signal);
-      if (came && this.wanted === question) await this.refine(question, this.still.signal);
+      while (came && this.wanted === question && !(await this.refine(question)));
       if (this.wanted === question) break;
       question = this.wanted;
     }
     this.running = false;
   }
 
-  private async refine(question: Q, moved: AbortSignal): Promise<void> {
+  /** Whether the full answer came, or failed, before anything changed. */
+  private async refine(question: Q): Promise<boolean> {
+    this.still = new AbortController();
+    const { signal } = this.still;
     await new Promise((resolve) => {
-      const timer = setTimeout(resolve, STILL);
-      moved.addEventListener("abort", () => {
+      const timer = this.waits ? undefined : setTimeout(resolve, STILL);
+      signal.addEventListener("abort", () => {
         clearTimeout(timer);
         resolve(null);
       });
     });
-    if (moved.aborted) return;
-    if (await this.fetch(question, false, moved)) this.asking.onBehind(false);
+    if (signal.aborted) return false;
+    if (await this.fetch(question, false, signal)) this.asking.onBehind(false);
+    return !signal.aborted;
   }
 
   /** Whether an answer came. */

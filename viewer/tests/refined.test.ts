@@ -88,6 +88,26 @@ test("a full table that something moved away from is taken back, and never shown
   expect(questions[2]).toMatchObject({ recipe: of(0.6), small: true });
 });
 
+test("while another question is awaited the full table waits, and is taken back", async () => {
+  vi.useFakeTimers();
+  const { table, questions, came, told } = asked();
+  table.want(of(0.5), true);
+  await questions[0]!.answer();
+  await vi.advanceTimersByTimeAsync(1000);
+  expect(questions).toHaveLength(1);
+  table.want(of(0.5));
+  await vi.advanceTimersByTimeAsync(1000);
+  expect(questions[1]!.small).toBe(false);
+  table.want(of(0.5), true);
+  expect(questions[1]!.signal.aborted).toBe(true);
+  table.want(of(0.5));
+  await questions[1]!.answer();
+  await vi.advanceTimersByTimeAsync(1000);
+  await questions[2]!.answer();
+  expect(came).toEqual([true, false]);
+  expect(told.behind).toBe(false);
+});
+
 test("a failure is said, and the next change asks again", async () => {
   vi.useFakeTimers();
   const { table, questions, told } = asked();
