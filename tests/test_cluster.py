@@ -20,11 +20,11 @@ from halfway.errors import ClusterError, FormatError, LibraryError, MissingExtra
 from halfway.export import write_route
 from halfway.formats import write_merl
 from halfway.halfdiff import Grid
-from halfway.judge import compare_spaces
+from halfway.judge import Bench, evaluate, leave_one_out
 from halfway.library import StoredLibrary
 from halfway.look import CellSamples, Looks
 from halfway.recipes import Mixer
-from halfway.space import LinearSpace
+from halfway.space import LinearSpace, make_space
 from halfway.tasks import Threads, Work
 
 GRID = Grid.merl(12, 10, 8)
@@ -132,9 +132,14 @@ def test_tables_of_a_route_are_the_same_bytes(cluster, library, tmp_path):
     assert len(files(tmp_path / "there")) == 9
 
 
-def test_spaces_measure_the_same(cluster, library):
+def test_a_space_measures_the_same(cluster, library):
+    space, bench = make_space("paper", library), Bench.fit(library)
+    pairs = np.array([[0, 1], [2, 3]])
     here, there = (
-        compare_spaces(library, n_pairs=1, work=Work(engine=engine))
+        (
+            evaluate(space, bench, pairs, work=Work(engine=engine)).to_json(),
+            leave_one_out(space, bench, work=Work(engine=engine)).to_json(),
+        )
         for engine in (Threads(), cluster)
     )
     assert here == there
