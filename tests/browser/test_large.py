@@ -1,7 +1,10 @@
 """Libraries of thousands: what a page of hundreds takes, by the material, and how one finds one's way in it."""
 
-from contextlib import ExitStack
+from collections.abc import Callable, Generator
+from contextlib import ExitStack, contextmanager
+from functools import cache
 
+import pytest
 from conftest import opened, served  # pyright: ignore[reportMissingImports]
 from playwright.sync_api import Browser, Page, expect
 
@@ -16,11 +19,25 @@ PER_MATERIAL = 50_000
 """Bytes that scripts hold: 2,000 materials in 100 MB."""
 
 
-def test_what_scripts_hold_of_a_material_lets_2000_be_in_100_mb(browser: Browser) -> None:
+@pytest.fixture(scope="module")
+def crowd() -> Generator[Callable[[int], str]]:
+    """The address of an explorer of so many materials."""
+    with ExitStack() as stack:
+
+        @cache
+        def address(n: int) -> str:
+            models = builtin(f"synthetic-{n}").models
+            return stack.enter_context(served(ProceduralLibrary("crowd", models, grid=GRID)))
+
+        yield address
+
+
+def test_what_scripts_hold_of_a_material_lets_2000_be_in_100_mb(
+    browser: Browser, crowd: Callable[[int], str]
+) -> None:
     held: list[float] = []
     for n in (FEW, MANY):
-        with ExitStack() as stack:
-            page = shown(stack, browser, n)
+        with shown(browser, crowd(n)) as page:
             session = page.context.new_cdp_session(page)
             session.send("HeapProfiler.collectGarbage")
             usage = session.send("Runtime.getHeapUsage")
@@ -28,9 +45,8 @@ def test_what_scripts_hold_of_a_material_lets_2000_be_in_100_mb(browser: Browser
     assert (held[1] - held[0]) / (MANY - FEW) < PER_MATERIAL
 
 
-def test_the_grid_paints_what_is_seen(browser: Browser) -> None:
-    with ExitStack() as stack:
-        page = shown(stack, browser, MANY)
+def test_the_grid_paints_what_is_seen(browser: Browser, crowd: Callable[[int], str]) -> None:
+    with shown(browser, crowd(MANY)) as page:
         page.get_by_role("button", name="Grid", exact=True).click()
         first, last = page.locator(".grid canvas").first, page.locator(".grid canvas").last
         expect(first).to_have_js_property("width", 64)
@@ -42,9 +58,10 @@ def test_the_grid_paints_what_is_seen(browser: Browser) -> None:
         assert painted(page) < MANY / 3
 
 
-def test_one_comes_near_to_what_one_points_at_and_back(browser: Browser) -> None:
-    with ExitStack() as stack:
-        page = shown(stack, browser, FEW)
+def test_one_comes_near_to_what_one_points_at_and_back(
+    browser: Browser, crowd: Callable[[int], str]
+) -> None:
+    with shown(browser, crowd(FEW)) as page:
         home = page.get_by_role("button", name="See the whole space")
         box = page.locator(".cloud").bounding_box()
         assert box is not None
@@ -56,14 +73,13 @@ def test_one_comes_near_to_what_one_points_at_and_back(browser: Browser) -> None
         expect(home).to_be_hidden()
 
 
-def shown(stack: ExitStack, browser: Browser, n: int) -> Page:
-    """A page whose space shows so many materials."""
-    models = builtin(f"synthetic-{n}").models
-    address = stack.enter_context(served(ProceduralLibrary("crowd", models, grid=GRID)))
-    page = stack.enter_context(opened(browser, viewport=SIZE))
-    page.goto(address)
-    page.wait_for_selector(".labels", state="attached")
-    return page
+@contextmanager
+def shown(browser: Browser, address: str) -> Generator[Page]:
+    """A page that shows its space."""
+    with opened(browser, viewport=SIZE) as page:
+        page.goto(address)
+        page.wait_for_selector(".labels", state="attached")
+        yield page
 
 
 def painted(page: Page) -> int:
