@@ -14,7 +14,7 @@ from halfway.cli import main as halfway
 from halfway.cli.arguments import open_like
 from halfway.colour import to_hex
 from halfway.control import Control, Range, Wishes
-from halfway.errors import ControlError, OutOfReachError
+from halfway.errors import ControlError, HalfwayError, OutOfReachError
 from halfway.instruments import ATTRIBUTES, of_readings, read_table
 from halfway.look import portrait, to_png
 from halfway.look.portraits import PORTRAIT_SCENE
@@ -158,6 +158,11 @@ def test_like_a_picture_in_linear_light_is_that_material(tmp_path):
     (tmp_path / "sphere.exr").write_bytes(exr(channels))
     recipe = CONTROL.find(Wishes(), like=open_like(str(tmp_path / "sphere.exr")))
     assert recipe.weights[0, recipe.names.index("m2")] > 0.99
+
+
+def test_a_picture_that_is_not_there_is_called_a_picture(tmp_path):
+    with pytest.raises(HalfwayError, match=r"photo.exr is not there: expected a picture of"):
+        open_like(str(tmp_path / "photo.exr"))
 
 
 def test_like_a_colour_is_the_mix_with_that_body():

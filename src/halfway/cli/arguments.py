@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -109,7 +110,11 @@ def open_like(text: str) -> str | np.ndarray | None:
     """What a recipe shall be like, as `halfway.find` takes it: a picture in linear light is opened, for it takes the renderer's reader."""
     from ..render import open_environment
 
-    return open_environment(text) if text.lower().endswith((".exr", ".hdr")) else text or None
+    if not text.lower().endswith((".exr", ".hdr")):
+        return text or None
+    if not Path(text).is_file():
+        raise ArgumentError(f"{text} is not there: expected a picture of a sphere. Check its name.")
+    return open_environment(text)
 
 
 def _is_seen(x: float, y: float, z: float) -> bool:
