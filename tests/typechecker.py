@@ -15,13 +15,14 @@ ENOUGH = 20
 
 
 def check(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Check the annotations of a function, in its first calls."""
-    checked = _strict(function)
+    """Check the annotations of a function, in its first calls; of one that is never called, nothing is made ready."""
+    checked: Callable[..., Any] | None = None
     calls = 0
 
-    @wraps(checked)
+    @wraps(function)
     def counted(*args: Any, **kwargs: Any) -> Any:
-        nonlocal calls
+        nonlocal calls, checked
+        checked = checked or _strict(function)
         calls += 1
         if calls == ENOUGH:
             _leave_alone(function)

@@ -40,7 +40,7 @@ MATERIALS = (
 GRID = Grid.merl(60, 30, 36)
 expect.set_options(timeout=1000 * PATIENCE)
 SIZE = {"width": 820, "height": 760}
-COARSE = 0.25
+COARSE = 0.125
 """Pixels of the screen along one of the page, where no test looks at them: the rasteriser draws them all, until the picture has settled."""
 EMPTY = "empty"
 """Where there is no explorer, at the same address."""

@@ -43,13 +43,12 @@ def address(tables: dict[str, TabularBrdf]) -> Generator[str]:
         yield address
 
 
-def settled(explorer: Explorer, name: str, view: str) -> np.ndarray:
-    """The finished picture of one material, its exposure halved."""
+def show(explorer: Explorer, name: str, view: str) -> None:
+    """One material, its exposure halved."""
     explorer.page.set_viewport_size(SIZE)
     other = next(each for each in ALPHAS if each != name)
     explorer.open(f"#space=linear&pace=uniform&stops={name},{other}&t=0&exposure=-1&{view}")
-    explorer.wait_until_settled()
-    return explorer.drawn()
+    explorer.wait_for_picture()
 
 
 def difference(shown: np.ndarray, rendered: np.ndarray) -> float:
@@ -81,7 +80,9 @@ def test_the_picture_is_that_of_mitsuba(
     light: str,
     grain: int,
 ) -> None:
-    shown = settled(explorer, name, f"shape={shape}&light={light}&grain={grain}")
+    show(explorer, name, f"shape={shape}&light={light}&grain={grain}")
+    explorer.wait_until_settled()
+    shown = explorer.drawn()
     scene = SCENE_OF[shape] if light == "points" else replace(SCENE_OF[shape], points=())
     truth = tables[name] if grain else plugin(*ALPHAS[name])
     rendered = in_mitsuba(scene, truth, shown, spp=64, turn_degrees=grain)
@@ -95,14 +96,14 @@ ALONG_Y = "vt 0 1\nvt 0 0\nvt 1 0\nvt 1 1\n"
 
 
 def on_sheet(explorer: Explorer, texture_coordinates: str) -> np.ndarray:
-    """The finished picture of the present material on an upright sheet."""
+    """The picture of the present material on an upright sheet."""
     faces = "f 1/1 2/2 3/3\nf 1/1 3/3 4/4\n" if texture_coordinates else "f 1 2 3\nf 1 3 4\n"
     body = (SHEET + texture_coordinates + faces).encode()
     file = {"name": "sheet.obj", "mimeType": "text/plain", "buffer": body}
     before = explorer.drawn()
     explorer.page.set_input_files("input[aria-label='Mesh file']", file)
     explorer.drawn_after(before)
-    explorer.wait_until_settled()
+    explorer.wait_for_whole_picture(8)
     return to_linear(explorer.drawn())
 
 
@@ -110,9 +111,9 @@ def test_the_tangent_of_a_mesh_is_where_its_first_texture_coordinate_grows(
     explorer: Explorer,
 ) -> None:
     said = explorer.page.get_by_text("sheet.obj has no texture coordinates")
-    settled(explorer, "narrow", "light=points&grain=0")
+    show(explorer, "narrow", "light=points&grain=0")
     upright, across = (on_sheet(explorer, along) for along in (ALONG_Y, ALONG_X))
-    settled(explorer, "narrow", "light=points&grain=90")
+    show(explorer, "narrow", "light=points&grain=90")
     turned = on_sheet(explorer, ALONG_X)
     expect(said).to_have_count(0)
     level = on_sheet(explorer, "")

@@ -1,10 +1,17 @@
 """Films of a route, and of an object that turns."""
 
 import numpy as np
+import pytest
 from conftest import Explorer, frames  # pyright: ignore[reportMissingImports]
 
 SMALL = {"width": 460, "height": 560}
 PAIR = "#space=linear&pace=uniform&stops=cherry-235,gold-paint&t=0.5&light=points&shape="
+
+
+@pytest.fixture(scope="module")
+def scale() -> float:
+    """So that in a large window the picture is not done before the film."""
+    return 0.25
 
 
 def test_a_film_of_a_route_goes_evenly_from_one_stop_to_the_next(explorer: Explorer) -> None:

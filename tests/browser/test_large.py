@@ -13,7 +13,7 @@ from halfway.library import ProceduralLibrary
 from halfway.models import builtin
 
 GRID = Grid.merl(6, 6, 6)
-FEW, MANY = 40, 240
+FEW, MANY = 30, 180
 SIZE = {"width": 1000, "height": 800}
 PER_MATERIAL = 50_000
 """Bytes that scripts hold: 2,000 materials in 100 MB."""

@@ -19,8 +19,9 @@ NEXT_FRAME = (
     "() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve)))"
 )
 SMALL = {"width": 460, "height": 560}
+# What lies on top: while a picture of another size is made, it is what was shown before.
 DRAWN = """() => {
-  const canvas = document.querySelector(".live");
+  const canvas = document.querySelector(".hold:not([hidden])") ?? document.querySelector(".live");
   const copy = new OffscreenCanvas(canvas.width, canvas.height).getContext("2d");
   copy.drawImage(canvas, 0, 0);
   const { data } = copy.getImageData(0, 0, canvas.width, canvas.height);

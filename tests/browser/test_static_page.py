@@ -24,7 +24,7 @@ from halfway.space import make_space
 MATERIALS = (
     "blue-fabric", "cherry-235", "chrome", "gold-paint", "green-plastic", "pink-felt", "red-metallic-paint", "teflon",
 )  # fmt: skip
-PAIR = "#space=anchored&pace=perceptual&stops=teflon,cherry-235"
+PAIR = "#space=anchored&pace=perceptual&light=points&stops=teflon,cherry-235"
 
 OF_A_FOLDER: dict[str, Any] = {"blend": "linear", "n_components": 3}
 
@@ -71,7 +71,7 @@ def test_the_page_opens_and_asks_for_nothing_outside_its_folder(explorer: Explor
 
 def test_the_slider_goes_along_pythons_route(explorer: Explorer, subset: Subset) -> None:
     stops = ["teflon", "cherry-235", "chrome"]
-    explorer.open("#space=anchored&pace=perceptual&stops=teflon,cherry-235,chrome&t=0")
+    explorer.open(PAIR + ",chrome&t=0")
     explorer.page.wait_for_selector(".recipe .name")
     assert explorer.recipe == ["teflon"]
     explorer.set_t(0.25)
@@ -122,7 +122,7 @@ def test_a_folder_that_is_not_whole_says_so(explorer: Explorer, folder: Path) ->
     leg = folder / "data" / "legs" / "paper" / "1-2.json"
     aside = leg.rename(leg.with_suffix(".aside"))
     try:
-        explorer.open("#space=paper&stops=cherry-235,chrome")
+        explorer.open("#space=paper&stops=cherry-235,chrome&light=points")
         said = explorer.page.get_by_text("copy the whole folder that was exported")
         said.wait_for()
         assert "./data/legs/paper/1-2.json is not there (404)" in said.inner_text()
