@@ -29,7 +29,7 @@ convert mix.binary mix.bsdf
 info mix.bsdf
 check mix.binary
 check abc.brdflib
-report abc.brdflib --pairs 12 -o report
+report abc.brdflib -o report
 fit mix.binary -o mix.mtlx
 export mix.binary --for mitsuba -o scene
 render mix.binary --size 192 --spp 32 -o mix.png

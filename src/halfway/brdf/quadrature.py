@@ -178,9 +178,10 @@ class Functional(NamedTuple):
         shares = np.where(measured.ravel()[corners.cells], corners.weights, 0)
         total = shares.sum(axis=0)
         shares = np.divide(shares, total, out=np.zeros_like(shares), where=total > 0)
-        sums = np.bincount(corners.cells.ravel(), (weights * shares).ravel(), minlength=grid.size)
+        first = corners.cells.min(initial=grid.size)
+        sums = np.bincount((corners.cells - first).ravel(), (weights * shares).ravel())
         cells = np.flatnonzero(sums)
-        return cls(cells, sums[cells])
+        return cls(cells + first, sums[cells])
 
     @classmethod
     def albedo(cls, grid: Grid, measured: Mask, theta_i: float) -> "Functional":
