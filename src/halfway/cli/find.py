@@ -55,10 +55,7 @@ Lights = Annotated[
         "[default: that of halfway's own spheres]",
     ),
 ]
-Output = Annotated[
-    Path | None,
-    typer.Option("--output", "-o", metavar="FILE", help="A recipe, .json; or a material."),
-]
+Output = Annotated[Path | None, options.output_to("FILE", "A recipe, .json; or a material.")]
 
 
 def find(

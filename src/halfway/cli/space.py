@@ -9,7 +9,6 @@ from ..locations import DEFAULT_LIBRARY
 from . import options
 from .completion import complete_names
 from .console import say, show, show_json, work
-from .options import SpaceName
 
 if TYPE_CHECKING:
     import numpy as np
@@ -30,7 +29,7 @@ def space(
         ),
     ] = "",
     n: Annotated[int, typer.Option("-n", help="How many neighbours.")] = 8,
-    space: options.Space = SpaceName.anchored,
+    space: options.Space = "anchored",
     components: options.Components = None,
     blend: options.Blending = None,
     as_json: options.AsJson = False,
