@@ -73,6 +73,18 @@ def replacing(path: Location) -> Generator[Path]:
                 temporary.unlink()
 
 
+def write_text(path: Location, text: str) -> None:
+    """Write a text file whole, or not at all.
+
+    Raises
+    ------
+    OutputError, RemoteError
+        As for `replacing`.
+    """
+    with replacing(path) as temporary:
+        temporary.write_text(text, encoding="utf-8")
+
+
 @contextmanager
 def _named(path: Location, temporary: Path) -> Generator[None]:
     """Let a mistake speak of the file that a person asked for."""
