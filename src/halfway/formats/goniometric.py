@@ -34,7 +34,7 @@ import numpy as np
 from .._types import Angle, Directions, Indices, Table, Values
 from ..brdf import Measurement
 from ..errors import FormatError
-from ..halfdiff import Corners, above_horizon
+from ..halfdiff import Corners, above_horizon, to_polar
 from .content import CSAIL_HEADER, UTIA_BYTES
 from .sources import Source
 
@@ -157,11 +157,11 @@ def _bins(size: int, stop: float, *, periodic: bool = False) -> Nodes:
 
 
 def _both(wi: Directions, wo: Directions) -> tuple[Angle, ...]:
-    return (*_polar(wi), *_polar(wo))
+    return (*to_polar(wi), *to_polar(wo))
 
 
 def _difference(wi: Directions, wo: Directions) -> tuple[Angle, ...]:
-    (theta_i, phi_i), (theta_o, phi_o) = _polar(wi), _polar(wo)
+    (theta_i, phi_i), (theta_o, phi_o) = to_polar(wi), to_polar(wo)
     return theta_i, theta_o, np.mod(phi_o - phi_i, 2 * np.pi), phi_i
 
 
@@ -169,11 +169,6 @@ def _half(wi: Directions, wo: Directions) -> tuple[Angle, ...]:
     """As `_difference`, of the pair or of its reverse: whichever has phi_d within half a turn."""
     there, back = _difference(wi, wo), _difference(wo, wi)
     return tuple(np.where(there[2] <= np.pi, a, b) for a, b in zip(there, back, strict=True))
-
-
-def _polar(v: Directions) -> tuple[Angle, Angle]:
-    x, y, z = np.moveaxis(v, -1, 0)
-    return np.arctan2(np.hypot(x, y), z), np.arctan2(y, x)
 
 
 def _floats(

@@ -14,6 +14,7 @@ from jaxtyping import Float32
 
 from ..brdf import TabularBrdf, quadrature
 from ..formats import NeuralBrdf
+from ..halfdiff import from_polar
 from ..library import Library
 from ..tasks import Work
 from .data import Values
@@ -70,9 +71,8 @@ def _samples(table: TabularBrdf) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     theta_h, _, theta_d, phi_d = (
         np.broadcast_to(angle, grid.shape).ravel()[known] for angle in grid.centres()
     )
-    sin_d = np.sin(theta_d)
-    h = (np.sin(theta_h), np.zeros_like(theta_h), np.cos(theta_h))
-    x = np.stack([*h, sin_d * np.cos(phi_d), sin_d * np.sin(phi_d), np.cos(theta_d)], axis=1)
+    h, d = from_polar(theta_h, np.zeros_like(theta_h)), from_polar(theta_d, phi_d)
+    x = np.concatenate([h, d], axis=1)
     cos_i = np.broadcast_to(quadrature.comparison_cells(grid).cos_i, grid.shape).ravel()[known]
     return x.astype(np.float32), values[:, known].T.copy(), cos_i.astype(np.float32)[:, None]
 
