@@ -128,7 +128,11 @@ class MerlFile:
         OutputError
             When the file cannot be written.
         """
-        write_samples(path, self.grid, self.samples)
+        header = encode_header(self.grid)
+        body = np.ascontiguousarray(self.samples, "<f8")
+        with replacing(Path(path)) as temporary, temporary.open("wb") as file:
+            file.write(header)
+            file.write(body.data.cast("B"))
 
 
 def read_merl(path: str | Path) -> TabularBrdf:
@@ -217,21 +221,6 @@ def encode_header(grid: Grid) -> bytes:
     """The 12 bytes before the samples."""
     require_merl_shaped(grid)
     return MERL_HEADER.pack(*grid.shape)
-
-
-def write_samples(path: str | Path, grid: Grid, samples: Samples) -> None:
-    """Write samples that are scaled for the file already, shape (3, *grid.shape), without copying them.
-
-    Raises
-    ------
-    OutputError
-        When the file cannot be written.
-    """
-    header = encode_header(grid)
-    body = np.ascontiguousarray(samples, "<f8")
-    with replacing(Path(path)) as temporary, temporary.open("wb") as file:
-        file.write(header)
-        file.write(body.data.cast("B"))
 
 
 def require_merl_shaped(grid: Grid, name: str = "") -> None:
