@@ -24,8 +24,6 @@ Explorer.
 import hashlib
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import reduce
-from itertools import product
 from math import prod
 from typing import NamedTuple
 
@@ -103,12 +101,8 @@ class GoniometricBrdf(Measurement):
 
     def _corners(self, wi: Directions, wo: Directions) -> Corners:
         angles = self.coordinates(wi, wo)
-        sides = [axis.around(angle) for axis, angle in zip(self.nodes, angles, strict=True)]
-        shape = self.values.shape[1:]
-        corners = list(product(*sides))
-        cells = [np.ravel_multi_index(tuple(c for c, _ in corner), shape) for corner in corners]
-        weights = [reduce(np.multiply, [w for _, w in corner]) for corner in corners]
-        return Corners(np.stack(cells), np.stack(weights))
+        sides = (axis.around(angle) for axis, angle in zip(self.nodes, angles, strict=True))
+        return Corners.between(sides, self.values.shape[1:])
 
 
 def read_utia_source(source: Source) -> GoniometricBrdf:
