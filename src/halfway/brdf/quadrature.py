@@ -222,6 +222,13 @@ def comparison_cells(grid: Grid) -> Cells:
     return Cells(grid.solid_angles(), cos_i, cos_o, grazing)
 
 
+def light_weights(grid: Grid) -> Float64[np.ndarray, " p"]:
+    """How much each cell passes on in even light, solid angle times both cosines; they sum to 1, and are 0 off the mask."""
+    cells = comparison_cells(grid)
+    weights = np.where(grid.mask(), cells.solid_angle * cells.cos_i * cells.cos_o, 0).ravel()
+    return weights / weights.sum()
+
+
 def spread_angles(n: int) -> HalfDiff:
     """``n`` half/difference angles spread evenly over the positions of a MERL table, by an additive recurrence; phi_h is 0.
 

@@ -51,7 +51,6 @@ def sketch(
     n_components: int,
     *,
     n_passes: int = N_PASSES,
-    seed: int = 0,
     work: Work = HERE,
 ) -> Sketch:
     """The first ``n_components`` eigenpairs of each channel, in ``n_passes`` over the library.
@@ -63,7 +62,7 @@ def sketch(
     """
     n = len(library)
     n_vectors = min(n_components + OVERSAMPLING, n)
-    tests = np.random.default_rng(seed).standard_normal((library.n_channels, n, n_vectors))
+    tests = np.random.default_rng(0).standard_normal((library.n_channels, n, n_vectors))
     for i in range(1, n_passes):
         label = f"Components, pass {i} of {n_passes}"
         tests = _sum(library, _orthonormal(tests), label, work).images

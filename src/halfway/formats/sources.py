@@ -82,10 +82,7 @@ class Source(ABC):
     def sha256(self) -> str:
         """Hex digits of the checksum of all bytes."""
         with self.open() as stream:
-            digest = hashlib.sha256()
-            while chunk := stream.read(1 << 20):
-                digest.update(chunk)
-        return digest.hexdigest()
+            return hashlib.file_digest(stream, "sha256").hexdigest()
 
 
 @dataclass(frozen=True)

@@ -12,12 +12,11 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import partial
 
 import numpy as np
-from jaxtyping import Float, Float32, Float64
+from jaxtyping import Float, Float32
 from threadpoolctl import threadpool_limits
 
 from ..brdf import metrics, quadrature
 from ..fit import MODELS, fit
-from ..halfdiff import Grid
 from ..library import Library
 from ..tasks import Work
 from .data import Values, gridded, part, values_of
@@ -43,7 +42,7 @@ class Root:
     """sqrt(f), cells weighed by solid angle and cosines: as `halfway.components.MappedRows` has them for the blend `root`."""
 
     def __init__(self, train: Library) -> None:
-        self._scale = np.sqrt(_cell_weights(train.grid)).astype(np.float32)
+        self._scale = np.sqrt(quadrature.light_weights(train.grid)).astype(np.float32)
 
     def to(self, f: Mapped) -> Mapped:
         return np.sqrt(f) * self._scale
@@ -161,12 +160,6 @@ RECONSTRUCTIONS: Mapping[str, Reconstruction] = {
     "nearest mix": convex_mix,
 }
 """What learns from the training materials."""
-
-
-def _cell_weights(grid: Grid) -> Float64[np.ndarray, " p"]:
-    cells = quadrature.comparison_cells(grid)
-    weights = np.where(grid.mask(), cells.solid_angle * cells.cos_i * cells.cos_o, 0).ravel()
-    return weights / weights.sum()
 
 
 def _flat(values: Mapped, known: np.ndarray) -> Float32[np.ndarray, "N n"]:
