@@ -47,13 +47,7 @@ class Fits(NamedTuple):
 
 
 def write_usd(folder: Path, fits: Sequence[Fits]) -> tuple[str, str]:
-    """Write the two layers into ``folder``; the names of their files.
-
-    Raises
-    ------
-    OutputError
-        When a file cannot be written.
-    """
+    """Write the two layers into ``folder``; the names of their files."""
     for name, text in ((MATERIALS, to_usda(fits)), (SCENE, _scene(fits))):
         write_text(folder / name, text)
     return MATERIALS, SCENE

@@ -95,13 +95,7 @@ def checksum(header: Header, arrays: Arrays) -> str:
 
 
 def write(path: Location, header: Header, arrays: Arrays) -> None:
-    """Write a compact library.
-
-    Raises
-    ------
-    OutputError
-        When the file cannot be written.
-    """
+    """Write a compact library, whole or not at all."""
     document = {
         "format": FORMAT,
         "grid": [asdict(axis) for axis in header.grid.axes],
