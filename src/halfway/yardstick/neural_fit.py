@@ -6,19 +6,14 @@ Theirs has 800,000 samples of a table of 1.4 million cells and steps of one size
 D. P. Kingma, J. Ba, "Adam: A Method for Stochastic Optimization", ICLR 2015.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from itertools import islice
 
 import numpy as np
-from jaxtyping import Float32
 
 from ..brdf import TabularBrdf, quadrature
 from ..formats import NeuralBrdf
 from ..halfdiff import from_polar
-from ..library import Library
-from ..tasks import Work
-from .data import Values
-from .reconstruction import Reconstruction
 
 SHAPES = ((6, 21), (21,), (21, 21), (21,), (21, 3), (3,))
 N_NUMBERS = sum(int(np.prod(shape)) for shape in SHAPES)
@@ -30,20 +25,6 @@ _DECAY = (0.9, 0.999)
 _TINY = 1e-8
 
 Layers = list[np.ndarray]
-
-
-def neural_fits(work: Work) -> Reconstruction:
-    """As a method of `reconstruct`: a network for each material, which sees all of it."""
-
-    def method(train: Library, test: Library, ks: Sequence[int]) -> Iterator[tuple[int, Values]]:
-        del train, ks
-
-        def one(name: str) -> Float32[np.ndarray, "3 p"]:
-            return fitted(test.brdf(name)).sample_rows(test.grid, slice(None)).reshape(3, -1)
-
-        yield N_NUMBERS, np.stack(list(work.run(one, test.names, label="Fits of NBRDF")), axis=1)
-
-    return method
 
 
 def fitted(table: TabularBrdf, *, n_steps: int = N_STEPS) -> NeuralBrdf:

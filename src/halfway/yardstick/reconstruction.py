@@ -15,7 +15,7 @@ import numpy as np
 from jaxtyping import Float, Float32
 from threadpoolctl import threadpool_limits
 
-from ..brdf import metrics, quadrature
+from ..brdf import Brdf, TabularBrdf, metrics, quadrature
 from ..fit import MODELS, fit
 from ..library import Library
 from ..tasks import Work
@@ -136,20 +136,27 @@ def beside(other: Library, n_numbers: int) -> Reconstruction:
     return method
 
 
-def fitted(model: str, work: Work) -> Reconstruction:
-    """An analytic model of `halfway.fit`, fitted to each material."""
+def fit_each(
+    of_table: Callable[[TabularBrdf], Brdf], n_numbers: int, label: str, work: Work
+) -> Reconstruction:
+    """What is fitted to each material, of which it sees all."""
 
     def method(train: Library, test: Library, ks: Sequence[int]) -> Iterator[tuple[int, Values]]:
         del train, ks
 
         def one(name: str) -> Float32[np.ndarray, "3 p"]:
-            found = fit(test.brdf(name), model, name=name).model
-            return found.sample_rows(test.grid, slice(None)).reshape(3, -1)
+            return of_table(test.brdf(name)).sample_rows(test.grid, slice(None)).reshape(3, -1)
 
-        rows = list(work.run(one, test.names, label=f"Fits of {model}"))
-        yield len(MODELS[model].neutral()), np.stack(rows, axis=1)
+        rows = list(work.run(one, test.names, label=f"Fits of {label}"))
+        yield n_numbers, np.stack(rows, axis=1)
 
     return method
+
+
+def fitted(model: str, work: Work) -> Reconstruction:
+    """An analytic model of `halfway.fit`, fitted to each material."""
+    n_numbers = len(MODELS[model].neutral())
+    return fit_each(lambda table: fit(table, model).model, n_numbers, model, work)
 
 
 RECONSTRUCTIONS: Mapping[str, Reconstruction] = {
