@@ -155,13 +155,7 @@ def sweep(folder: Location) -> None:
 
 
 def require_space(folder: Location, n_bytes: int, what: str) -> None:
-    """Refuse to start what the disk cannot hold; nobody knows what remote storage does.
-
-    Raises
-    ------
-    OutputError
-        When the disk of ``folder`` has fewer than ``n_bytes`` free.
-    """
+    """Refuse to start what the disk of ``folder`` cannot hold; nobody knows what remote storage does."""
     if isinstance(folder, RemotePath):
         return
     existing = next(parent for parent in (folder, *folder.absolute().parents) if parent.exists())

@@ -53,13 +53,7 @@ def sketch(
     n_passes: int = N_PASSES,
     work: Work = HERE,
 ) -> Sketch:
-    """The first ``n_components`` eigenpairs of each channel, in ``n_passes`` over the library.
-
-    Raises
-    ------
-    LibraryError
-        When no cell is measured in every material.
-    """
+    """The first ``n_components`` eigenpairs of each channel, in ``n_passes`` over the library; raises as `Gram.of` does."""
     n = len(library)
     n_vectors = min(n_components + OVERSAMPLING, n)
     tests = np.random.default_rng(0).standard_normal((library.n_channels, n, n_vectors))

@@ -106,13 +106,7 @@ class GoniometricBrdf(Measurement):
 
 
 def read_utia_source(source: Source) -> GoniometricBrdf:
-    """The material in a UTIA file.
-
-    Raises
-    ------
-    FormatError
-        When it has another size, or a value is not finite.
-    """
+    """The material in a UTIA file; a `FormatError` where it has another size, or a value is not finite."""
     values = _floats(source, 0, "<f8", (3, *_UTIA_SHAPE), UTIA_BYTES)
     _require_finite(values, source)
     theta, phi = Nodes(6, np.radians(15)), Nodes(48, np.radians(7.5), periodic=True)
@@ -120,13 +114,7 @@ def read_utia_source(source: Source) -> GoniometricBrdf:
 
 
 def read_csail_source(source: Source) -> GoniometricBrdf:
-    """The material in an anisotropic MIT CSAIL file.
-
-    Raises
-    ------
-    FormatError
-        When its size is not what its header says, or a value is not finite.
-    """
+    """The material in an anisotropic MIT CSAIL file; a `FormatError` where its header says another size, or a value is not finite."""
     header = CSAIL_HEADER.unpack(source.head(CSAIL_HEADER.size))
     shape, half = header[:4], bool(header[9])
     expected = CSAIL_HEADER.size + 12 * prod(shape)

@@ -264,13 +264,7 @@ def read_grid(source: Source) -> Grid:
 
 
 def table_grid(source: Source) -> Grid:
-    """The grid of the table; where the header states another than the database's, a look at its samples decides.
-
-    Raises
-    ------
-    FormatError
-        As `read_grid`, and where a sample that was looked at is damaged.
-    """
+    """The grid of the table; where the header states another than the database's, a look at its samples decides, which may be damaged."""
     stated = read_grid(source)
     looked_at = stated != MERL and source.n_bytes <= _LARGEST_LOOK
     return read_merl_source(source).grid if looked_at else stated

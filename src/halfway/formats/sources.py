@@ -58,13 +58,7 @@ class Source(ABC):
 
     @contextmanager
     def open(self) -> Generator[BufferedIOBase]:
-        """The bytes as a stream.
-
-        Raises
-        ------
-        FormatError
-            When they cannot be read, now or inside the block.
-        """
+        """The bytes as a stream; a `FormatError` where they cannot be read, now or inside the block."""
         try:
             with self._open() as stream:
                 yield stream
@@ -160,13 +154,7 @@ class MemberSource(Source):
 
 
 def members(archive: Path) -> list[MemberSource]:
-    """The files in a zip, sorted by path.
-
-    Raises
-    ------
-    FormatError
-        When the zip is damaged.
-    """
+    """The files in a zip, sorted by path; a `FormatError` where the zip is damaged."""
     try:
         opened = zipfile.ZipFile(archive)
     except UNREADABLE as error:

@@ -169,13 +169,7 @@ def _parsed(path: Location) -> dict[str, Any]:
 
 
 def read_arrays(path: Location, header: Header) -> Arrays:
-    """The numbers of a compact library, which have its checksum.
-
-    Raises
-    ------
-    LibraryError
-        When they are damaged.
-    """
+    """The numbers of a compact library, which have its checksum, or a `LibraryError`."""
     arrays = _read_arrays(path, header)
     actual = checksum(header, arrays)
     if actual != header.checksum:

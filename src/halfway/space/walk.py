@@ -67,13 +67,7 @@ class DelaunayWalk:
         return np.zeros((0, self.n_dimensions + 1), np.intp)
 
     def weights(self, x: Float64[np.ndarray, " k"]) -> Float64[np.ndarray, " n_points"]:
-        """Barycentric weights of ``x`` over all points.
-
-        Raises
-        ------
-        OutsideHullError
-            When ``x`` is not in the hull.
-        """
+        """Barycentric weights of ``x`` over all points; raises as `Triangulation.weights` does."""
         target = self._flat(x)
         # About the target, where the heights of what matters are small numbers.
         costs = np.square(self._lifted - target[:, None]).sum(axis=0)
