@@ -118,11 +118,7 @@ def _alone(folder: Location) -> Generator[None]:
 
 
 def _prepare(
-    folder: Location,
-    outputs: Mapping[str, Any],
-    made: Mapping[str, Any],
-    n_bytes: int,
-    work: Work,
+    folder: Location, outputs: Mapping[str, Any], made: Mapping[str, Any], n_bytes: int, work: Work
 ) -> Manifest:
     """Leave what is right, remove what is not, and write the journal's first lines."""
     old = Manifest.read(folder) or Manifest(made)

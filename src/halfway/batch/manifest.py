@@ -153,10 +153,7 @@ def verify(folder: Location, *, work: Work = HERE) -> Verdict:
     ours = manifest.names | {MANIFEST, JOURNAL}
     changed = (manifest.entries.keys() & there) - right
     return Verdict(
-        len(right),
-        sorted(manifest.names - right - changed),
-        sorted(changed),
-        sorted(there - ours),
+        len(right), sorted(manifest.names - right - changed), sorted(changed), sorted(there - ours)
     )
 
 

@@ -96,9 +96,7 @@ def benchmark(
         say(f"{folder}: benchmark.html, and every number in benchmark.json")
 
 
-def _methods(
-    neural_process: Path | None,
-) -> tuple[dict[str, Any], dict[str, "RecoveryMethod"]]:
+def _methods(neural_process: Path | None) -> tuple[dict[str, Any], dict[str, "RecoveryMethod"]]:
     """The networks of a file as methods, and all that recover."""
     from halfway.yardstick import RECOVERIES, NeuralProcess, RecoveryMethod
 

@@ -51,11 +51,7 @@ def compact(
     coding = Coding(mapping, shared, precision)
     with writing(to_location(output), force=force), working(scheduler) as work:
         compacted = compact_library(
-            library,
-            to_location(output),
-            n_components=components,
-            coding=coding,
-            work=work,
+            library, to_location(output), n_components=components, coding=coding, work=work
         )
     say(
         f"{output}: {len(compacted)} materials on {compacted.grid}",

@@ -141,11 +141,7 @@ def _say_given_up(recipe: "Recipe", like: str, lost: "Mapping[str, tuple[Any, An
 
 
 def _show(
-    recipe: "Recipe",
-    read: "Mapping[str, Any]",
-    seen: "Mapping[str, Perceived]",
-    *,
-    as_json: bool,
+    recipe: "Recipe", read: "Mapping[str, Any]", seen: "Mapping[str, Perceived]", *, as_json: bool
 ) -> None:
     from halfway.instruments import described
 

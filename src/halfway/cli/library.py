@@ -82,10 +82,7 @@ app.command()(compact)
 
 
 @app.command()
-def info(
-    lib: Lib = DEFAULT_LIBRARY,
-    as_json: AsJson = False,
-) -> None:
+def info(lib: Lib = DEFAULT_LIBRARY, as_json: AsJson = False) -> None:
     """Say what is in a library.
 
     \b

@@ -25,8 +25,7 @@ def mix(
         Path, options.output_to("FILE", "The file to write, as halfway convert does.")
     ] = ...,  # pyright: ignore[reportArgumentType] (required)
     point: Annotated[
-        str,
-        typer.Option(metavar="X,Y,...", help="A point of the space, instead of a recipe."),
+        str, typer.Option(metavar="X,Y,...", help="A point of the space, instead of a recipe.")
     ] = "",
     blend: options.Blending = None,
     space: options.Space = "anchored",

@@ -171,8 +171,7 @@ Turntable = Annotated[
     typer.Option(metavar="N", min=0, help="N pictures of each material, once around the objects."),
 ]
 Turn = Annotated[
-    float,
-    typer.Option(metavar="DEGREES", help="Turn anisotropic materials about the normal."),
+    float, typer.Option(metavar="DEGREES", help="Turn anisotropic materials about the normal.")
 ]
 Mesh = Annotated[Path | None, typer.Option(help="Mesh (.ply, .obj) in place of the object.")]
 Size = Annotated[str, typer.Option(metavar="PIXELS", help="Of one picture: 384, or 640x480.")]

@@ -84,11 +84,7 @@ def _stop(library: "Library", address: str, word: str) -> "str | Recipe":
 
 
 def _refuse_mistakes(
-    library: "Library",
-    stops: "list[str | Recipe]",
-    n: int,
-    wanted: list[float] | None,
-    blend: str,
+    library: "Library", stops: "list[str | Recipe]", n: int, wanted: list[float] | None, blend: str
 ) -> None:
     """A mistake is told before a space is fitted."""
     import halfway

@@ -90,11 +90,7 @@ def _alike(
 
 
 def _show_near(
-    space: "Space",
-    name: str,
-    point: "np.ndarray",
-    others: list[tuple[str, float]],
-    as_json: bool,
+    space: "Space", name: str, point: "np.ndarray", others: list[tuple[str, float]], as_json: bool
 ) -> None:
     """A point, the mix that stands there or nearest to it, and the materials that are most alike."""
     position = space.at(point, clamp=True)

@@ -47,11 +47,7 @@ class Sketch(NamedTuple):
 
 
 def sketch(
-    library: Streamed,
-    n_components: int,
-    *,
-    n_passes: int = N_PASSES,
-    work: Work = HERE,
+    library: Streamed, n_components: int, *, n_passes: int = N_PASSES, work: Work = HERE
 ) -> Sketch:
     """The first ``n_components`` eigenpairs of each channel, in ``n_passes`` over the library; raises as `Gram.of` does."""
     n = len(library)

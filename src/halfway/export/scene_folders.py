@@ -12,11 +12,7 @@ from .usd import MATERIALS, SCENE, Fits, write_usd
 
 
 def write_scenes(
-    folder: Path,
-    materials: Sequence[NamedBrdf],
-    renderer: str,
-    *,
-    work: Work = HERE,
+    folder: Path, materials: Sequence[NamedBrdf], renderer: str, *, work: Work = HERE
 ) -> list[SceneFolder]:
     """Write each material with a scene for ``renderer``; see `write_scene`.
 

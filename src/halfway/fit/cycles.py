@@ -46,11 +46,7 @@ class Cycles(AnalyticModel):
     formula: ClassVar[str] = "Blender's Principled BSDF"
     colours: ClassVar[frozenset[str]] = frozenset({"base_color", "specular_tint"})
     main_lobe: ClassVar = "roughness", "metallic"
-    opening: ClassVar = {
-        "specular_tint": 0.95,
-        "coat_weight": 0.1,
-        "coat_roughness": 0.1,
-    }
+    opening: ClassVar = {"specular_tint": 0.95, "coat_weight": 0.1, "coat_roughness": 0.1}
 
     def of(self, pair: Pair) -> np.ndarray:
         lobe = _lobe(pair, self.roughness)

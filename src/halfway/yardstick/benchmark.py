@@ -205,12 +205,7 @@ def _recovered(
 
 
 def _draw(
-    run: _Run,
-    train: Library,
-    test: Library,
-    method: RecoveryMethod,
-    n: int,
-    draw: tuple[int, int],
+    run: _Run, train: Library, test: Library, method: RecoveryMethod, n: int, draw: tuple[int, int]
 ) -> list[Scores]:
     seed, i = draw
     sampling = method.method(train, n, np.random.default_rng([seed, n, i]))
