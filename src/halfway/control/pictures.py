@@ -25,7 +25,13 @@ LEAST_SIZE = 24
 def picture_numbers(
     picture: Path | np.ndarray, materials: Float64[np.ndarray, "N n_picture"]
 ) -> Float64[np.ndarray, " n_picture"]:
-    """The means of the parts of a picture of a sphere, a file or in linear light, exposed as ``materials`` are, of which it is taken to be a mix."""
+    """The means of the parts of a picture, a file or in linear light, exposed as ``materials`` are, of which it is taken to be a mix.
+
+    Raises
+    ------
+    ControlError
+        When it is no picture of a sphere.
+    """
     from scipy.optimize import nnls
 
     name = str(picture) if isinstance(picture, Path) else "the picture"

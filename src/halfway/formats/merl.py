@@ -264,7 +264,7 @@ def read_grid(source: Source) -> Grid:
 
 
 def table_grid(source: Source) -> Grid:
-    """The grid of the table; where the header states another than the database's, a look at its samples decides, which may be damaged."""
+    """The grid of the table; where the header states another than the database's, a look at its samples decides. Raises as `read_grid` does."""
     stated = read_grid(source)
     looked_at = stated != MERL and source.n_bytes <= _LARGEST_LOOK
     return read_merl_source(source).grid if looked_at else stated

@@ -34,7 +34,7 @@ class Journal:
 
     @classmethod
     def open(cls, path: Path | None, of: Mapping[str, Any]) -> "Journal":
-        """Of a run; with a path, what an earlier run noted there counts as measured, if it measured the same."""
+        """Of a run; with a path, what an earlier run noted there counts as measured; a `HalfwayError` where it measured something else."""
         if path is None:
             return cls(None, {})
         head, *lines = noted = list(_whole_lines(path)) or [{"of": of}]
