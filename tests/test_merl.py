@@ -19,7 +19,6 @@ from halfway.formats import (
     read_brdf,
     read_merl,
     write_merl,
-    write_samples,
 )
 from halfway.formats.merl import SCALES
 from halfway.halfdiff import Axis
@@ -61,11 +60,11 @@ class TestByHand:
         assert encode_header(MERL) == b"\x5a\0\0\0\x5a\0\0\0\xb4\0\0\0"
 
     def test_samples_are_written_as_they_are(self, path):
-        write_samples(path, GRID, np.arange(72.0).reshape(3, *MERL_SHAPE))
+        MerlFile(GRID, np.arange(72.0).reshape(3, *MERL_SHAPE)).write(path)
         assert path.read_bytes() == merl()
 
     def test_samples_in_another_memory_order_are_written_in_the_files(self, path):
-        write_samples(path, GRID, np.asfortranarray(np.arange(72.0).reshape(3, *MERL_SHAPE)))
+        MerlFile(GRID, np.asfortranarray(np.arange(72.0).reshape(3, *MERL_SHAPE))).write(path)
         assert path.read_bytes() == merl()
 
 

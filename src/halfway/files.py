@@ -27,13 +27,7 @@ _TEMPORARY = re.compile(rf"\..+\.[0-9a-f]{{{2 * _TOKEN_BYTES}}}(\.\w+)?")
 
 
 def suffix_of(path: Path, known: Collection[str], *, what: str = "format") -> str:
-    """The suffix of a file to write, in small letters: one of ``known``.
-
-    Raises
-    ------
-    OutputError
-        When it is none of them.
-    """
+    """The suffix of a file to write, in small letters: one of ``known``, or an `OutputError`."""
     if path.suffix.lower() in known:
         return path.suffix.lower()
     wrong = f"the suffix {path.suffix!r}, which names no {what}" if path.suffix else "no suffix"
@@ -73,6 +67,12 @@ def replacing(path: Location) -> Generator[Path]:
                 temporary.unlink()
 
 
+def write_text(path: Location, text: str) -> None:
+    """Write a text file whole, or not at all; raises as `replacing` does."""
+    with replacing(path) as temporary:
+        temporary.write_text(text, encoding="utf-8")
+
+
 @contextmanager
 def _named(path: Location, temporary: Path) -> Generator[None]:
     """Let a mistake speak of the file that a person asked for."""
@@ -86,13 +86,7 @@ def _named(path: Location, temporary: Path) -> Generator[None]:
 
 @contextmanager
 def explaining(path: Location) -> Generator[None]:
-    """Turn what goes wrong while ``path`` is written into one line that says what to do.
-
-    Raises
-    ------
-    OutputError
-        For every `OSError` inside the block.
-    """
+    """Turn every `OSError` while ``path`` is written into an `OutputError` of one line that says what to do."""
     try:
         yield
     except OSError as error:
@@ -161,13 +155,7 @@ def sweep(folder: Location) -> None:
 
 
 def require_space(folder: Location, n_bytes: int, what: str) -> None:
-    """Refuse to start what the disk cannot hold; nobody knows what remote storage does.
-
-    Raises
-    ------
-    OutputError
-        When the disk of ``folder`` has fewer than ``n_bytes`` free.
-    """
+    """Refuse to start what the disk of ``folder`` cannot hold; nobody knows what remote storage does."""
     if isinstance(folder, RemotePath):
         return
     existing = next(parent for parent in (folder, *folder.absolute().parents) if parent.exists())

@@ -170,13 +170,7 @@ def name_in(folder: Location, location: Location) -> str:
 
 
 def read_into(location: Location, starts: Sequence[int], buffers: Sequence[memoryview]) -> None:
-    """Fill each buffer with the bytes of a file from its start on.
-
-    Raises
-    ------
-    OSError
-        When the file cannot be read, or ends before a buffer is full.
-    """
+    """Fill each buffer with the bytes of a file from its start on; an `OSError` where it ends before they are full."""
     if isinstance(location, RemotePath):
         ranges = [(start, start + len(b)) for start, b in zip(starts, buffers, strict=True)]
         for buffer, content in zip(buffers, location.read_ranges(ranges), strict=True):

@@ -11,13 +11,21 @@ name is whole and right at any time. What no manifest names is somebody else's: 
 
 from collections.abc import Container, Generator, Iterable, Mapping
 from contextlib import contextmanager, suppress
-from typing import Any
+from typing import Any, NamedTuple
 
 from ..errors import OutputError
 from ..files import explaining, lock, require_space, sweep
 from ..locations import Location, RemotePath, append_text
 from ..tasks import HERE, Work
 from .manifest import JOURNAL, Checksum, Entry, Manifest, journal_line, right_files
+
+
+class Written(NamedTuple):
+    """What a run did in a folder."""
+
+    n_written: int
+    n_kept: int
+    """Files that an earlier run had finished."""
 
 
 class Batch:
@@ -110,11 +118,7 @@ def _alone(folder: Location) -> Generator[None]:
 
 
 def _prepare(
-    folder: Location,
-    outputs: Mapping[str, Any],
-    made: Mapping[str, Any],
-    n_bytes: int,
-    work: Work,
+    folder: Location, outputs: Mapping[str, Any], made: Mapping[str, Any], n_bytes: int, work: Work
 ) -> Manifest:
     """Leave what is right, remove what is not, and write the journal's first lines."""
     old = Manifest.read(folder) or Manifest(made)

@@ -22,7 +22,7 @@ from pathlib import PurePosixPath
 from typing import Any, NamedTuple
 
 from ..errors import FormatError
-from ..files import replacing
+from ..files import write_text
 from ..locations import Location, name_in
 from ..tasks import HERE, Work
 
@@ -98,8 +98,7 @@ class Manifest:
         """Write manifest.json; the journal that it was has no more to say."""
         files = {name: self.entries[name].to_json() for name in sorted(self.entries)}
         document = {"format": FORMAT, "made": self.made, "files": files}
-        with replacing(folder / MANIFEST) as temporary:
-            temporary.write_text(json.dumps(document, indent=1), encoding="utf-8")
+        write_text(folder / MANIFEST, json.dumps(document, indent=1))
         (folder / JOURNAL).unlink(missing_ok=True)
 
     def write_journal(self, folder: Location) -> None:
@@ -107,8 +106,7 @@ class Manifest:
         head = {"format": FORMAT, "made": self.made, "files": sorted(self.names)}
         lines = [json.dumps(head) + "\n"]
         lines += [journal_line(name, entry) for name, entry in self.entries.items()]
-        with replacing(folder / JOURNAL) as temporary:
-            temporary.write_text("".join(lines), encoding="utf-8")
+        write_text(folder / JOURNAL, "".join(lines))
         (folder / MANIFEST).unlink(missing_ok=True)
 
 
@@ -155,10 +153,7 @@ def verify(folder: Location, *, work: Work = HERE) -> Verdict:
     ours = manifest.names | {MANIFEST, JOURNAL}
     changed = (manifest.entries.keys() & there) - right
     return Verdict(
-        len(right),
-        sorted(manifest.names - right - changed),
-        sorted(changed),
-        sorted(there - ours),
+        len(right), sorted(manifest.names - right - changed), sorted(changed), sorted(there - ours)
     )
 
 

@@ -16,7 +16,7 @@ import numpy as np
 from jaxtyping import Float, Float64, Int
 
 from .._types import Directions, Mask
-from ..halfdiff import MERL, Grid, HalfDiff, cosines, reflect, turn
+from ..halfdiff import MERL, Grid, HalfDiff, cosines, from_polar, reflect, turn
 
 GRAZING_DEGREES = 80.0
 """From the normal; Ngan et al. leave out what lies beyond."""
@@ -65,9 +65,7 @@ def hemisphere(n_theta: int, n_phi: int) -> tuple[Directions, Float64[np.ndarray
     edges = np.pi / 2 * (np.arange(n_theta + 1) / n_theta) ** 2
     theta = np.pi / 2 * ((np.arange(n_theta) + 0.5) / n_theta) ** 2
     phi = 2 * np.pi * (np.arange(n_phi) + 0.5) / n_phi
-    theta_all, phi_all = (grid.ravel() for grid in np.meshgrid(theta, phi, indexing="ij"))
-    sin = np.sin(theta_all)
-    nodes = np.stack([sin * np.cos(phi_all), sin * np.sin(phi_all), np.cos(theta_all)], axis=-1)
+    nodes = from_polar(*(grid.ravel() for grid in np.meshgrid(theta, phi, indexing="ij")))
     bands = -np.diff(np.cos(edges)) * 2 * np.pi / n_phi
     return nodes, np.repeat(bands, n_phi)
 
@@ -223,6 +221,13 @@ def comparison_cells(grid: Grid) -> Cells:
     )
     grazing = np.minimum(cos_i, cos_o) < np.cos(np.radians(GRAZING_DEGREES))
     return Cells(grid.solid_angles(), cos_i, cos_o, grazing)
+
+
+def light_weights(grid: Grid) -> Float64[np.ndarray, " p"]:
+    """How much each cell passes on in even light, solid angle times both cosines; they sum to 1, and are 0 off the mask."""
+    cells = comparison_cells(grid)
+    weights = np.where(grid.mask(), cells.solid_angle * cells.cos_i * cells.cos_o, 0).ravel()
+    return weights / weights.sum()
 
 
 def spread_angles(n: int) -> HalfDiff:

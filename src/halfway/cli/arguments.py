@@ -24,14 +24,10 @@ def parse_t(text: str) -> list[float]:
     """The list of t written as ``0,0.25,1`` or as ranges ``start:stop:step`` with both ends."""
     ts: list[float] = []
     for part in text.split(","):
-        try:
-            numbers = [float(number) for number in part.split(":")]
-        except ValueError:
-            numbers = []
-        match numbers:
-            case [t] if math.isfinite(t):
+        match _numbers(part, ":"):
+            case [t]:
                 ts.append(t)
-            case [start, stop, step] if 0 < step < math.inf and 0 <= stop - start < math.inf:
+            case [start, stop, step] if step > 0 and 0 <= stop - start < math.inf:
                 require_length(len(ts) + (stop - start) / step)
                 n = round((stop - start) / step)
                 ts.extend(np.round(start + step * np.arange(n + 1), 12).tolist())
@@ -79,15 +75,12 @@ def parse_grid(text: str) -> "Grid | None":
 
 def parse_point(text: str) -> np.ndarray:
     """The coordinates written as ``1.5,-2e3,0.1``."""
-    try:
-        point = np.array([float(number) for number in text.split(",")])
-    except ValueError:
-        point = np.array([np.nan])
-    if not np.isfinite(point).all():
+    point = _numbers(text, ",")
+    if not point:
         raise ArgumentError(
             f"--point {text!r} is no list of finite numbers: expected such as 1.5,-2e3,0.1."
         )
-    return point
+    return np.array(point)
 
 
 def parse_lights(text: str) -> np.ndarray:
@@ -150,12 +143,19 @@ def parse_shares(text: str) -> dict[str, float]:
 def parse_range(text: str) -> tuple[str, float, float]:
     """The attribute and its ends written as ``gloss60=5:80``."""
     name, _, ends = text.partition("=")
+    match _numbers(ends, ":"):
+        case [start, stop]:
+            return name.strip(), start, stop
+        case _:
+            raise ArgumentError(
+                f"--along {text!r} is no attribute with two ends: expected such as gloss60=5:80."
+            )
+
+
+def _numbers(text: str, separator: str) -> list[float]:
+    """The finite numbers with separators between; none where anything else is among them."""
     try:
-        start, stop = (float(end) for end in ends.split(":"))
+        numbers = [float(number) for number in text.split(separator)]
     except ValueError:
-        start = stop = math.nan
-    if not (math.isfinite(start) and math.isfinite(stop)):
-        raise ArgumentError(
-            f"--along {text!r} is no attribute with two ends: expected such as gloss60=5:80."
-        )
-    return name.strip(), start, stop
+        return []
+    return numbers if all(map(math.isfinite, numbers)) else []

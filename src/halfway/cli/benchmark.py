@@ -8,7 +8,7 @@ import typer
 
 from ..locations import DEFAULT_LIBRARY
 from .console import say, show, show_json, work
-from .options import AsJson, Force, GridText, Lib
+from .options import AsJson, Force, GridText, Lib, output_to
 
 if TYPE_CHECKING:
     from halfway.yardstick import RecoveryMethod
@@ -38,10 +38,7 @@ Process = Annotated[
     Path | None,
     typer.Option("--neural-process", metavar="H5", help="The networks of Zheng et al. 2021."),
 ]
-PageFolder = Annotated[
-    Path | None,
-    typer.Option("--output", "-o", metavar="DIR", help="The folder to write. [default: benchmark]"),
-]
+PageFolder = Annotated[Path | None, output_to("DIR", "The folder to write. [default: benchmark]")]
 
 
 def benchmark(
@@ -99,9 +96,7 @@ def benchmark(
         say(f"{folder}: benchmark.html, and every number in benchmark.json")
 
 
-def _methods(
-    neural_process: Path | None,
-) -> tuple[dict[str, Any], dict[str, "RecoveryMethod"]]:
+def _methods(neural_process: Path | None) -> tuple[dict[str, Any], dict[str, "RecoveryMethod"]]:
     """The networks of a file as methods, and all that recover."""
     from halfway.yardstick import RECOVERIES, NeuralProcess, RecoveryMethod
 

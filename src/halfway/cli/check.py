@@ -7,7 +7,7 @@ import typer
 
 from ..errors import HalfwayError
 from .console import say, show, show_json, work
-from .options import AsJson, Force, Library, What
+from .options import AsJson, Force, Library, What, output_to
 from .outputs import writing
 
 if TYPE_CHECKING:
@@ -24,9 +24,7 @@ def check(
     repair: Annotated[
         bool, typer.Option("--repair", help="Write the nearest sound table to -o.")
     ] = False,
-    output: Annotated[
-        Path | None, typer.Option("--output", "-o", metavar="FILE", help="With --repair.")
-    ] = None,
+    output: Annotated[Path | None, output_to("FILE", "With --repair.")] = None,
     library: Library = "",
     force: Force = False,
 ) -> None:

@@ -1,47 +1,30 @@
 """``halfway library compact``: a library as principal components, in one file."""
 
-from enum import StrEnum
-from typing import Annotated
+from typing import Annotated, Literal
 
 import typer
 
 from ..locations import to_location
 from .console import say, working
-from .options import Force, Scheduler
+from .options import Force, Scheduler, output_to
 from .outputs import writing
-
-
-class MappingName(StrEnum):
-    log = "log"
-    linear = "linear"
-
-
-class PrecisionName(StrEnum):
-    int8 = "int8"
-    float16 = "float16"
-    float32 = "float32"
 
 
 def compact(
     lib: Annotated[str, typer.Argument(metavar="LIB")],
-    output: Annotated[
-        str,
-        typer.Option(
-            "--output", "-o", metavar="FILE", help="The file to write, NAME.brdfc, or its URL."
-        ),
-    ],
+    output: Annotated[str, output_to("FILE", "The file to write, NAME.brdfc, or its URL.")],
     components: Annotated[
         int, typer.Option("-k", help="Principal components; more lose less and take more room.")
     ] = 36,
     mapping: Annotated[
-        MappingName,
+        Literal["log", "linear"],
         typer.Option(
             help="log: errors are shares of the value; linear: the paper's, of f_r itself."
         ),
-    ] = MappingName.log,
+    ] = "log",
     precision: Annotated[
-        PrecisionName, typer.Option(help="Of the components.")
-    ] = PrecisionName.int8,
+        Literal["int8", "float16", "float32"], typer.Option(help="Of the components.")
+    ] = "int8",
     shared: Annotated[
         bool, typer.Option(help="Whether the three channels share their components.")
     ] = True,
@@ -65,14 +48,10 @@ def compact(
     from halfway.library import Coding, open_library
 
     library = open_library(lib)
-    coding = Coding(mapping.value, shared, precision.value)
+    coding = Coding(mapping, shared, precision)
     with writing(to_location(output), force=force), working(scheduler) as work:
         compacted = compact_library(
-            library,
-            to_location(output),
-            n_components=components,
-            coding=coding,
-            work=work,
+            library, to_location(output), n_components=components, coding=coding, work=work
         )
     say(
         f"{output}: {len(compacted)} materials on {compacted.grid}",

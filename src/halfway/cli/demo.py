@@ -3,16 +3,12 @@
 from pathlib import Path
 from typing import Annotated
 
-import typer
-
 from .console import say, work
-from .options import Force
+from .options import Force, output_to
 
 
 def demo(
-    output: Annotated[
-        Path, typer.Option("--output", "-o", metavar="DIR", help="The folder to write.")
-    ] = Path("demo"),
+    output: Annotated[Path, output_to("DIR", "The folder to write.")] = Path("demo"),
     force: Force = False,
 ) -> None:
     """Run the paper's main experiment: light-brown-fabric to blue-fabric, 51 materials, with pictures.

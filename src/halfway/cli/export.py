@@ -1,29 +1,20 @@
 """``halfway export``: materials with a scene, ready for another renderer."""
 
-from enum import StrEnum
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal
 
 import typer
 
 from .console import say, work
-from .options import Force, Library, What
+from .options import Force, Library, What, output_to
 
-
-class Renderer(StrEnum):
-    mitsuba = "mitsuba"
-    pbrt_v2 = "pbrt-v2"
-    pbrt_v4 = "pbrt-v4"
-    usd = "usd"
-    blender = "blender"
+Renderer = Literal["mitsuba", "pbrt-v2", "pbrt-v4", "usd", "blender"]
 
 
 def export(
     words: What,
     renderer: Annotated[Renderer, typer.Option("--for", help="Who shall render it.")],
-    output: Annotated[
-        Path, typer.Option("--output", "-o", metavar="DIR", help="The folder to fill.")
-    ],
+    output: Annotated[Path, output_to("DIR", "The folder to fill.")],
     library: Library = "",
     force: Force = False,
 ) -> None:

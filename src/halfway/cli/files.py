@@ -1,9 +1,8 @@
 """``halfway convert``, ``halfway info``, ``halfway diff`` and ``halfway fetch``: files in, files out."""
 
 import sys
-from enum import StrEnum
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
@@ -28,13 +27,7 @@ Material = Annotated[
 ]
 
 
-class Suffix(StrEnum):
-    binary = "binary"
-    bsdf = "bsdf"
-    zarr = "zarr"
-    mtlx = "mtlx"
-    gltf = "gltf"
-    glb = "glb"
+Suffix = Literal["binary", "bsdf", "zarr", "mtlx", "gltf", "glb"]
 
 
 def convert(
@@ -53,10 +46,8 @@ def convert(
             help=".binary (MERL), .bsdf (RGL) or .zarr; .mtlx, .gltf, .glb: a fitted model; no suffix: a folder.",
         ),
     ] = None,
-    output: Annotated[
-        Path | None, typer.Option("--output", "-o", metavar="OUT", help="The same as OUT.")
-    ] = None,
-    format: Annotated[Suffix, typer.Option(help="Of the files in a folder.")] = Suffix.binary,
+    output: Annotated[Path | None, options.output_to("OUT", "The same as OUT.")] = None,
+    format: Annotated[Suffix, typer.Option(help="Of the files in a folder.")] = "binary",
     grid: options.GridText = "",
     spectral: options.Spectral = False,
     scale: options.Scale = 1.0,
@@ -193,9 +184,7 @@ def fetch(
     name: Annotated[
         str, typer.Argument(metavar="NAME", help="nbrdf-merl, merl, rgl:MATERIAL or rgl:all.")
     ],
-    output: Annotated[
-        Path, typer.Option("--output", "-o", metavar="DIR", help="The folder to fill.")
-    ] = Path(),
+    output: Annotated[Path, options.output_to("DIR", "The folder to fill.")] = Path(),
 ) -> None:
     """Download a published set of materials: resumed, verified, with its licence beside it.
 

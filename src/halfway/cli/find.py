@@ -55,10 +55,7 @@ Lights = Annotated[
         "[default: that of halfway's own spheres]",
     ),
 ]
-Output = Annotated[
-    Path | None,
-    typer.Option("--output", "-o", metavar="FILE", help="A recipe, .json; or a material."),
-]
+Output = Annotated[Path | None, options.output_to("FILE", "A recipe, .json; or a material.")]
 
 
 def find(
@@ -144,11 +141,7 @@ def _say_given_up(recipe: "Recipe", like: str, lost: "Mapping[str, tuple[Any, An
 
 
 def _show(
-    recipe: "Recipe",
-    read: "Mapping[str, Any]",
-    seen: "Mapping[str, Perceived]",
-    *,
-    as_json: bool,
+    recipe: "Recipe", read: "Mapping[str, Any]", seen: "Mapping[str, Perceived]", *, as_json: bool
 ) -> None:
     from halfway.instruments import described
 

@@ -1,31 +1,17 @@
 """``halfway fit``: an analytic model in place of a table, for programs without a node for measured materials."""
 
-from enum import StrEnum
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal
 
 import typer
 
 from .console import say, show, show_json, track
-from .options import AsJson, Force, Library, What
+from .options import AsJson, Force, Library, What, output_to
 from .outputs import writing
 
-
-class Model(StrEnum):
-    openpbr = "openpbr"
-    principled = "principled"
-    cycles = "cycles"
-    gltf = "gltf"
-    gltf_blender = "gltf-blender"
-    gltf_core = "gltf-core"
-    preview = "preview"
-
-
+Model = Literal["openpbr", "principled", "cycles", "gltf", "gltf-blender", "gltf-core", "preview"]
 FittedFile = Annotated[
-    Path | None,
-    typer.Option(
-        "--output", "-o", metavar="FILE", help=".mtlx, .gltf, .glb or .json; of one material."
-    ),
+    Path | None, output_to("FILE", ".mtlx, .gltf, .glb or .json; of one material.")
 ]
 ModelName = Annotated[
     Model | None,

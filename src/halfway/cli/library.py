@@ -9,7 +9,7 @@ from ..locations import DEFAULT_LIBRARY
 from .check import UNREADABLE
 from .compact import compact
 from .console import say, show, show_json, working
-from .options import AsJson, GridText, Lib, Scheduler
+from .options import AsJson, GridText, Lib, Scheduler, output_to
 
 if TYPE_CHECKING:
     from ..formats import Skipped
@@ -24,9 +24,7 @@ def build(
     sources: Annotated[
         list[str], typer.Argument(metavar="SOURCE...", help="Files, folders, zips, builtin:NAME.")
     ],
-    output: Annotated[
-        str, typer.Option("--output", "-o", metavar="LIB", help="The folder to write, or its URL.")
-    ],
+    output: Annotated[str, output_to("LIB", "The folder to write, or its URL.")],
     licence: Annotated[
         str, typer.Option(help="Licence of the measurements, kept in the library.")
     ] = "",
@@ -84,10 +82,7 @@ app.command()(compact)
 
 
 @app.command()
-def info(
-    lib: Lib = DEFAULT_LIBRARY,
-    as_json: AsJson = False,
-) -> None:
+def info(lib: Lib = DEFAULT_LIBRARY, as_json: AsJson = False) -> None:
     """Say what is in a library.
 
     \b

@@ -8,7 +8,7 @@ import typer
 from . import options
 from .completion import complete_names
 from .console import say, work
-from .options import Force, Library, SpaceName
+from .options import Force, Library
 from .outputs import writing
 
 
@@ -22,17 +22,13 @@ def mix(
         ),
     ] = None,
     output: Annotated[
-        Path,
-        typer.Option(
-            "--output", "-o", metavar="FILE", help="The file to write, as halfway convert does."
-        ),
+        Path, options.output_to("FILE", "The file to write, as halfway convert does.")
     ] = ...,  # pyright: ignore[reportArgumentType] (required)
     point: Annotated[
-        str,
-        typer.Option(metavar="X,Y,...", help="A point of the space, instead of a recipe."),
+        str, typer.Option(metavar="X,Y,...", help="A point of the space, instead of a recipe.")
     ] = "",
     blend: options.Blending = None,
-    space: options.Space = SpaceName.anchored,
+    space: options.Space = "anchored",
     clamp: Annotated[
         bool, typer.Option(help="Take the nearest mix where the point is outside the hull.")
     ] = False,

@@ -1,9 +1,8 @@
 """Options that several commands take, or whose help is long: types of their parameters."""
 
 import re
-from enum import StrEnum
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any, Literal
 
 import typer
 
@@ -51,6 +50,11 @@ Scale = Annotated[
 Force = Annotated[bool, typer.Option("--force", help="Replace what others wrote, or changed.")]
 
 
+def output_to(metavar: str, text: str) -> Any:
+    """The option ``-o``: what is written there."""
+    return typer.Option("--output", "-o", metavar=metavar, help=text)
+
+
 def parse_size(text: str) -> tuple[int, int]:
     """The pixels written as ``384`` or ``640x480``."""
     from .arguments import ArgumentError
@@ -72,56 +76,6 @@ def _refuse_url(path: Path) -> Path:
     return path
 
 
-class SpaceName(StrEnum):
-    anchored = "anchored"
-    paper = "paper"
-    linear = "linear"
-
-
-class BlendName(StrEnum):
-    linear = "linear"
-    root = "root"
-    log = "log"
-    lobes = "lobes"
-
-
-class Pace(StrEnum):
-    perceptual = "perceptual"
-    people = "people"
-    uniform = "uniform"
-
-
-class TableFormat(StrEnum):
-    none = "none"
-    merl = "merl"
-    bsdf = "bsdf"
-    zarr = "zarr"
-
-
-class PictureFormat(StrEnum):
-    png = "png"
-    exr = "exr"
-    webp = "webp"
-    jpg = "jpg"
-
-
-class Layout(StrEnum):
-    STRIP = "strip"
-    SHEET = "sheet"
-
-
-class Quality(StrEnum):
-    preview = "preview"
-    normal = "normal"
-    final = "final"
-
-
-class DeviceName(StrEnum):
-    auto = "auto"
-    cpu = "cpu"
-    gpu = "gpu"
-
-
 # halfway route
 
 Stops = Annotated[
@@ -137,13 +91,13 @@ Ts = Annotated[
     str, typer.Option("--t", metavar="LIST", help="t instead of -n: 0,0.25,1 or 0.0001:1:0.0001.")
 ]
 Space = Annotated[
-    SpaceName,
+    Literal["anchored", "paper", "linear"],
     typer.Option(
         help="anchored: straight in colour, through real materials; paper: the paper's; linear: the ends alone."
     ),
 ]
 Pacing = Annotated[
-    Pace,
+    Literal["perceptual", "people", "uniform"],
     typer.Option(
         "--pace",
         help="perceptual: equal visible steps; people: steps that they call equal; uniform: the paper's.",
@@ -168,7 +122,7 @@ Along = Annotated[
     ),
 ]
 Blending = Annotated[
-    BlendName | None,
+    Literal["linear", "root", "log", "lobes"] | None,
     typer.Option(
         "--blend",
         help="lobes: one highlight that narrows; linear: the paper's; root, log: means of square roots, of logarithms. "
@@ -176,16 +130,10 @@ Blending = Annotated[
     ),
 ]
 RouteFolder = Annotated[
-    str | None,
-    typer.Option(
-        "--output",
-        "-o",
-        metavar="DIR",
-        help="A folder, or a URL such as s3://.... [default: A-to-B]",
-    ),
+    str | None, output_to("DIR", "A folder, or a URL such as s3://.... [default: A-to-B]")
 ]
 Tables = Annotated[
-    TableFormat,
+    Literal["none", "merl", "bsdf", "zarr"],
     typer.Option(
         "--format",
         help="Tables to write beside recipes.json: merl and bsdf, a file each; zarr, half precision in one store.",
@@ -223,13 +171,13 @@ Turntable = Annotated[
     typer.Option(metavar="N", min=0, help="N pictures of each material, once around the objects."),
 ]
 Turn = Annotated[
-    float,
-    typer.Option(metavar="DEGREES", help="Turn anisotropic materials about the normal."),
+    float, typer.Option(metavar="DEGREES", help="Turn anisotropic materials about the normal.")
 ]
 Mesh = Annotated[Path | None, typer.Option(help="Mesh (.ply, .obj) in place of the object.")]
 Size = Annotated[str, typer.Option(metavar="PIXELS", help="Of one picture: 384, or 640x480.")]
-RenderQuality = Annotated[
-    Quality, typer.Option(help="preview: 16 samples; normal: 64; final: 256.")
+Quality = Annotated[
+    Literal["preview", "normal", "final"],
+    typer.Option(help="preview: 16 samples; normal: 64; final: 256."),
 ]
 Spp = Annotated[int | None, typer.Option(help="Samples per pixel, instead of the quality's.")]
 Denoise = Annotated[
@@ -238,12 +186,15 @@ Denoise = Annotated[
 ]
 Bounces = Annotated[int | None, typer.Option(help="Of light between surfaces; 1 is direct light.")]
 InStrip = Annotated[int, typer.Option("-n", help="Pictures of a longer route in a strip.")]
-Arrangement = Annotated[Layout, typer.Option(help="How several pictures lie in one.")]
+Layout = Annotated[Literal["strip", "sheet"], typer.Option(help="How several pictures lie in one.")]
 Exposure = Annotated[float, typer.Option(help="In stops.")]
 Device = Annotated[
-    DeviceName,
+    Literal["auto", "cpu", "gpu"],
     typer.Option(help="auto: an NVIDIA GPU where there is one that works, else the CPU."),
 ]
 Seed = Annotated[int, typer.Option(help="The same seed gives the same picture.")]
 Fps = Annotated[int, typer.Option(help="Frames per second of an animation.")]
-Pictures = Annotated[PictureFormat, typer.Option("--format", help="Of the pictures in a folder.")]
+Pictures = Annotated[
+    Literal["png", "exr", "webp", "jpg"],
+    typer.Option("--format", help="Of the pictures in a folder."),
+]

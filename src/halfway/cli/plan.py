@@ -10,10 +10,7 @@ from . import options
 from .console import say, show, show_json, work
 from .outputs import writing
 
-Output = Annotated[
-    Path | None,
-    typer.Option("--output", "-o", metavar="FILE", help="CSV, whose values are to be filled in."),
-]
+Output = Annotated[Path | None, options.output_to("FILE", "CSV, whose values are to be filled in.")]
 Picture = Annotated[Path | None, typer.Option(metavar="IMAGE", help="Where they are.")]
 MaxTheta = Annotated[
     float, typer.Option(min=1, max=90, help="Reach of the instrument, degrees from the normal.")

@@ -1,8 +1,7 @@
 """``halfway recover``: a whole material from a few measured directions."""
 
-from enum import StrEnum
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
@@ -16,16 +15,6 @@ if TYPE_CHECKING:
     from ..brdf import TabularBrdf
     from ..recipes import NamedBrdf, Recipe
     from ..recovery import Recovery
-
-
-class Answer(StrEnum):
-    mix = "mix"
-    completion = "completion"
-
-
-class Channels(StrEnum):
-    apart = "apart"
-    together = "together"
 
 
 MeasurementFile = Annotated[
@@ -44,18 +33,15 @@ From = Annotated[
     ),
 ]
 As = Annotated[
-    Answer,
+    Literal["mix", "completion"],
     typer.Option("--as", help="mix: sound, a recipe too; completion: nearer, and promises no law."),
 ]
 Apart = Annotated[
-    Channels,
+    Literal["apart", "together"],
     typer.Option(help="Each channel by itself, or one weight for a material's three."),
 ]
 Repair = Annotated[bool, typer.Option("--repair", help="Make a completion physically sound.")]
-Output = Annotated[
-    Path | None,
-    typer.Option("--output", "-o", metavar="FILE", help="A material; or a recipe, .json."),
-]
+Output = Annotated[Path | None, options.output_to("FILE", "A material; or a recipe, .json.")]
 Picture = Annotated[
     Path | None, typer.Option(metavar="IMAGE", help="Both answers, and where they are unsure.")
 ]
@@ -68,10 +54,10 @@ def recover(
     measurements: MeasurementFile,
     library: From = DEFAULT_LIBRARY,
     output: Output = None,
-    answer: As = Answer.mix,
+    answer: As = "mix",
     repair: Repair = False,
     blend: options.Blending = None,
-    channels: Apart = Channels.apart,
+    channels: Apart = "apart",
     picture: Picture = None,
     level: Level = 0.9,
     as_json: options.AsJson = False,
@@ -92,23 +78,23 @@ def recover(
     from .arguments import ArgumentError
 
     wants_recipe = output is not None and output.suffix == ".json"
-    if wants_recipe and answer is Answer.completion:
+    if wants_recipe and answer == "completion":
         raise ArgumentError(
             f"-o {output} is a recipe, and a completion has none: expected --as mix, or a material such as .binary."
         )
     given = read_measurements(measurements)
-    recovery = recover_material(library, given, channels=channels.value, work=work())
+    recovery = recover_material(library, given, channels=channels, work=work())
     recipe = recovery.mix(Blend(blend or Blend.LINEAR))
     opened = recovery.setup.library
     tables = {"mix": mix(opened, recipe)}
     material = NamedBrdf.mixed(opened, recipe, given.name)
     with writing(output, picture, force=force):
-        if answer is Answer.completion or picture:
+        if answer == "completion" or picture:
             completion = recovery.completion(level, work=work())
             tables["completion"] = completion.table
             if picture:
                 figures.save(picture, recovered.recovered(recovery, completion, tables["mix"]))
-            if answer is Answer.completion:
+            if answer == "completion":
                 material = _material(completion.table, repair)
         if output and wants_recipe:
             write_recipe(output, opened, recipe)

@@ -5,7 +5,6 @@ from pathlib import Path
 
 from . import options
 from .console import say, work
-from .options import DeviceName, Layout, PictureFormat, Quality
 from .outputs import writing
 
 
@@ -17,19 +16,19 @@ def render(
     show_env: options.ShowEnv = False,
     mesh: options.Mesh = None,
     size: options.Size = "384",
-    quality: options.RenderQuality = Quality.normal,
+    quality: options.Quality = "normal",
     spp: options.Spp = None,
     denoise: options.Denoise = None,
     bounces: options.Bounces = None,
     n: options.InStrip = 8,
-    layout: options.Arrangement = Layout.STRIP,
+    layout: options.Layout = "strip",
     turntable: options.Turntable = 0,
     turn: options.Turn = 0,
     exposure: options.Exposure = 0.0,
     seed: options.Seed = 0,
-    device: options.Device = DeviceName.auto,
+    device: options.Device = "auto",
     fps: options.Fps = 12,
-    format: options.Pictures = PictureFormat.png,
+    format: options.Pictures = "png",
     library: options.Library = "",
     force: options.Force = False,
 ) -> None:
@@ -61,7 +60,7 @@ def render(
         denoise=denoiser_available() if denoise is None else denoise,
         seed=seed,
         turn_degrees=turn,
-        device=device.value,
+        device=device,
         work=work(),
     )
     write = partial(write_pictures, n_turns=turntable, fps=fps, exposure=exposure, work=work())
@@ -71,7 +70,7 @@ def render(
             renderer,
             rows,
             labels=[Path(word).name for word in words],
-            most=None if layout is Layout.SHEET else n,
+            most=None if layout == "sheet" else n,
             suffix=f".{format}",
         )
     say(f"{output}: {written}")

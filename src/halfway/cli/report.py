@@ -8,15 +8,12 @@ import typer
 
 from ..locations import DEFAULT_LIBRARY
 from .console import say, show, show_json, working
-from .options import Force, Lib, Scheduler
+from .options import Force, Lib, Scheduler, output_to
 
 if TYPE_CHECKING:
     from ..library import Library
 
-Folder = Annotated[
-    str | None,
-    typer.Option("--output", "-o", metavar="DIR", help="A folder, or its URL. [default: report]"),
-]
+Folder = Annotated[str | None, output_to("DIR", "A folder, or its URL. [default: report]")]
 Components = Annotated[
     str, typer.Option("-k", metavar="LIST", help="Numbers of components in Table I.")
 ]

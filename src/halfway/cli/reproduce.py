@@ -7,14 +7,12 @@ import typer
 
 from ..locations import DEFAULT_LIBRARY
 from .console import say, work
-from .options import Force, Lib
+from .options import Force, Lib, output_to
 
 
 def reproduce(
     lib: Lib = DEFAULT_LIBRARY,
-    output: Annotated[
-        Path, typer.Option("--output", "-o", metavar="DIR", help="The folder to write.")
-    ] = Path("paper"),
+    output: Annotated[Path, output_to("DIR", "The folder to write.")] = Path("paper"),
     size: Annotated[int, typer.Option(help="Width of one picture, in pixels.")] = 320,
     spp: Annotated[int, typer.Option(help="Samples per pixel.")] = 64,
     env: Annotated[

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 from . import options
 from .console import say, working
-from .options import Pace, SpaceName, TableFormat
 
 if TYPE_CHECKING:
     from ..library import Library
@@ -19,14 +18,14 @@ def route(
     words: options.Stops,
     n: options.Steps = 51,
     t: options.Ts = "",
-    space: options.Space = SpaceName.anchored,
-    pace: options.Pacing = Pace.perceptual,
+    space: options.Space = "anchored",
+    pace: options.Pacing = "perceptual",
     detour: options.Detour = 1.1,
     components: options.Components = None,
     blend: options.Blending = None,
     along: options.Along = "",
     output: options.RouteFolder = None,
-    format: options.Tables = TableFormat.none,
+    format: options.Tables = "none",
     as_json: options.RouteJson = False,
     scheduler: options.Scheduler = "",
 ) -> None:
@@ -85,11 +84,7 @@ def _stop(library: "Library", address: str, word: str) -> "str | Recipe":
 
 
 def _refuse_mistakes(
-    library: "Library",
-    stops: "list[str | Recipe]",
-    n: int,
-    wanted: list[float] | None,
-    blend: str,
+    library: "Library", stops: "list[str | Recipe]", n: int, wanted: list[float] | None, blend: str
 ) -> None:
     """A mistake is told before a space is fitted."""
     import halfway

@@ -8,12 +8,8 @@ import typer
 from ..locations import DEFAULT_LIBRARY
 from . import options
 from .console import say, show, show_json, working
-from .options import SpaceName, TableFormat
 
-SetFolder = Annotated[
-    str,
-    typer.Option("--output", "-o", metavar="SET", help="A folder, or a URL such as s3://...."),
-]
+SetFolder = Annotated[str, options.output_to("SET", "A folder, or a URL such as s3://....")]
 Number = Annotated[int, typer.Option("-n", help="Materials in the set.")]
 Seed = Annotated[int, typer.Option(help="The same seed gives the same set.")]
 Permute = Annotated[
@@ -43,13 +39,13 @@ def sample(
     output: SetFolder = ...,  # pyright: ignore[reportArgumentType] (required)
     n: Number = 2400,
     seed: Seed = 0,
-    format: options.Tables = TableFormat.none,
+    format: options.Tables = "none",
     blend: options.Blending = None,
     permute_channels: Permute = False,
     least: Least = 1.0,
     split: Split = "train=80,validation=10,test=10",
     list_file: ListFile = None,
-    space: options.Space = SpaceName.anchored,
+    space: options.Space = "anchored",
     as_json: options.AsJson = False,
     scheduler: options.Scheduler = "",
 ) -> None:

@@ -9,7 +9,6 @@ from ..locations import DEFAULT_LIBRARY
 from . import options
 from .completion import complete_names
 from .console import say, show, show_json, work
-from .options import SpaceName
 
 if TYPE_CHECKING:
     import numpy as np
@@ -30,7 +29,7 @@ def space(
         ),
     ] = "",
     n: Annotated[int, typer.Option("-n", help="How many neighbours.")] = 8,
-    space: options.Space = SpaceName.anchored,
+    space: options.Space = "anchored",
     components: options.Components = None,
     blend: options.Blending = None,
     as_json: options.AsJson = False,
@@ -91,11 +90,7 @@ def _alike(
 
 
 def _show_near(
-    space: "Space",
-    name: str,
-    point: "np.ndarray",
-    others: list[tuple[str, float]],
-    as_json: bool,
+    space: "Space", name: str, point: "np.ndarray", others: list[tuple[str, float]], as_json: bool
 ) -> None:
     """A point, the mix that stands there or nearest to it, and the materials that are most alike."""
     position = space.at(point, clamp=True)

@@ -16,15 +16,7 @@ from jaxtyping import Float32, Float64
 
 from ..brdf import metrics, quadrature
 from ..errors import LibraryError
-from ..library import (
-    Coding,
-    CompactLibrary,
-    Library,
-    Precision,
-    Streamed,
-    compact_file,
-    ranges,
-)
+from ..library import Coding, CompactLibrary, Library, Precision, Streamed, compact_file, ranges
 from ..locations import Location, absolute
 from ..tasks import HERE, Work
 from .pca import Pca

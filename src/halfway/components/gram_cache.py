@@ -16,11 +16,7 @@ from .gram import Gram
 _KEY = "gram-2-"
 
 
-def kept_gram(
-    library: Streamed,
-    *,
-    work: Work = HERE,
-) -> Gram:
+def kept_gram(library: Streamed, *, work: Work = HERE) -> Gram:
     """The Gram matrices of ``library``, from the cache folder as far as it has them; kept there."""
 
     def compute() -> dict[str, np.ndarray]:

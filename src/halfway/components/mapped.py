@@ -42,6 +42,4 @@ class MappedRows(Streamed):
 @lru_cache(maxsize=2)
 def _scale(grid: Grid) -> Float32[np.ndarray, " p"]:
     """The root of each cell's weight."""
-    cells = quadrature.comparison_cells(grid)
-    weights = np.where(grid.mask(), cells.solid_angle * cells.cos_i * cells.cos_o, 0).ravel()
-    return np.sqrt(weights / weights.sum()).astype(np.float32)
+    return np.sqrt(quadrature.light_weights(grid)).astype(np.float32)

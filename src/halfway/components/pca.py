@@ -60,13 +60,7 @@ class Pca:
     """Cells that count: measured in every material."""
 
     @classmethod
-    def fit(
-        cls,
-        library: Streamed,
-        *,
-        n_components: int | None = None,
-        work: Work = HERE,
-    ) -> "Pca":
+    def fit(cls, library: Streamed, *, n_components: int | None = None, work: Work = HERE) -> "Pca":
         """The components of ``library``: all, or the leading ``n_components`` (`N_KEPT` of a library of more materials).
 
         Exact up to `MOST_EXACT` materials, and by `halfway.components.sketch` beyond. With a cache folder, what was read of

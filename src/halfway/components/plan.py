@@ -73,8 +73,8 @@ class PcaPlan:
             12 * n * library.grid.size * n_passes,
         )
 
-    def timed(self, library: Library, *, n_threads: int | None = None) -> "PcaPlan":
-        """The plan with the time it takes on ``n_threads`` threads, as far as the middle block tells."""
+    def timed(self, library: Library) -> "PcaPlan":
+        """The plan with the time it takes, as far as the middle block tells."""
         blocks = library.blocks()
         block = blocks[len(blocks) // 2]
         start = time.perf_counter()
@@ -85,7 +85,7 @@ class PcaPlan:
                 sketch_block(library, np.ones((3, len(library), self.n_vectors)), block)
         seconds = time.perf_counter() - start
         share = (block.stop - block.start) / library.grid.size
-        n_threads = min(n_threads or os.cpu_count() or 1, len(blocks))
+        n_threads = min(os.cpu_count() or 1, len(blocks))
         return replace(self, seconds=seconds / share * self.n_passes / n_threads)
 
     def lines(self) -> list[str]:

@@ -47,23 +47,12 @@ class Sketch(NamedTuple):
 
 
 def sketch(
-    library: Streamed,
-    n_components: int,
-    *,
-    n_passes: int = N_PASSES,
-    seed: int = 0,
-    work: Work = HERE,
+    library: Streamed, n_components: int, *, n_passes: int = N_PASSES, work: Work = HERE
 ) -> Sketch:
-    """The first ``n_components`` eigenpairs of each channel, in ``n_passes`` over the library.
-
-    Raises
-    ------
-    LibraryError
-        When no cell is measured in every material.
-    """
+    """The first ``n_components`` eigenpairs of each channel, in ``n_passes`` over the library; raises as `Gram.of` does."""
     n = len(library)
     n_vectors = min(n_components + OVERSAMPLING, n)
-    tests = np.random.default_rng(seed).standard_normal((library.n_channels, n, n_vectors))
+    tests = np.random.default_rng(0).standard_normal((library.n_channels, n, n_vectors))
     for i in range(1, n_passes):
         label = f"Components, pass {i} of {n_passes}"
         tests = _sum(library, _orthonormal(tests), label, work).images

@@ -14,13 +14,7 @@ S = TypeVar("S", bound=tuple[np.ndarray, ...])
 """Arrays that add up; the last counts the cells of each channel."""
 
 
-def sum_blocks(
-    library: Streamed,
-    of_block: Callable[[slice], S],
-    *,
-    label: str,
-    work: Work,
-) -> S:
+def sum_blocks(library: Streamed, of_block: Callable[[slice], S], *, label: str, work: Work) -> S:
     """What ``of_block`` finds on each block, added up in their order.
 
     Raises

@@ -12,13 +12,12 @@ if TYPE_CHECKING:
     from .routes import write_route
     from .scene_folders import write_scenes
     from .scenes import write_scene
-    from .tables import Written, write_tables
+    from .tables import write_tables
 
 __all__ = [
     "MODEL_OF",
     "Report",
     "TableRow",
-    "Written",
     "figures",
     "html_page",
     "markdown_table",
@@ -45,7 +44,7 @@ _HOMES = {
     "routes": ("write_route",),
     "scene_folders": ("write_scenes",),
     "scenes": ("write_scene",),
-    "tables": ("Written", "write_tables"),
+    "tables": ("write_tables",),
 }
 
 

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from functools import wraps
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ParamSpec
 
 import numpy as np
 
@@ -13,6 +13,8 @@ from ..space import Triangulation
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+P = ParamSpec("P")
 
 COLOURS = {"red": "#c8442f", "green": "#3d8a4e", "blue": "#2f6dc8"}
 STYLE: Any = {
@@ -28,21 +30,31 @@ ZOOM = 5, 95
 """Percentiles of the scores that the lower row of the scatter spans."""
 
 
-def _styled(draw: Callable[[Pca, str], "Figure"]) -> Callable[[Pca, str], "Figure"]:
+def styled(draw: Callable[P, "Figure"]) -> Callable[P, "Figure"]:
+    """``draw`` in the style of all figures."""
+
     @wraps(draw)
-    def styled(pca: Pca, label: str) -> "Figure":
+    def in_style(*args: P.args, **kwargs: P.kwargs) -> "Figure":
         import matplotlib as mpl
 
         with mpl.rc_context(STYLE):
-            return draw(pca, label)
+            return draw(*args, **kwargs)
 
-    return styled
+    return in_style
 
 
-@_styled
+def empty(size: tuple[float, float]) -> "Figure":
+    """A figure to draw on, of so many inches."""
+    from matplotlib.figure import Figure
+
+    return Figure(figsize=size, layout="constrained")
+
+
+@styled
 def eigenvalues(pca: Pca, label: str) -> "Figure":
     """Eigenvalues of the covariance (eq. 3) per channel, and the share of variance beyond k components (Fig. 3)."""
-    figure, (left, right) = _subplots(1, 2, (10, 3.8))
+    figure = empty((10, 3.8))
+    left, right = figure.subplots(1, 2)
     for values, (name, colour) in zip(pca.eigenvalues, COLOURS.items(), strict=True):
         # The last eigenvalue of centred data is 0 but for rounding.
         shown = values[:-1]
@@ -60,13 +72,14 @@ def eigenvalues(pca: Pca, label: str) -> "Figure":
     return figure
 
 
-@_styled
+@styled
 def triangulation(pca: Pca, label: str) -> "Figure":
     """The first two scores of each channel and their Delaunay triangulation (Fig. 2).
 
     A few mirror-like materials have scores far from the others'; the lower row shows where most are.
     """
-    figure, rows = _subplots(2, 3, (12, 7.6))
+    figure = empty((12, 7.6))
+    rows = figure.subplots(2, 3)
     colours = list(COLOURS.items())
     for points, whole, zoomed, (name, colour) in zip(pca.scores(2), *rows, colours, strict=True):
         simplices = Triangulation.of(points).simplices
@@ -94,28 +107,24 @@ def triangulation(pca: Pca, label: str) -> "Figure":
     return figure
 
 
+@styled
 def spaces(measured: Sequence[Mapping[str, Any]], label: str) -> "Figure":
     """Detour against realism of each space, median and 90th percentile: left is direct, low is real."""
-    import matplotlib as mpl
-
-    with mpl.rc_context(STYLE):
-        figure, ax = _subplots(1, 1, (6, 4.2))
-        for found in measured:
-            detour, realism = found["detour"], found["realism"]["log by cell"]
-            x, y = (
-                np.array([values["median"], values["90th percentile"]])
-                for values in (detour, realism)
-            )
-            ax.plot(x, y, "-", lw=1, alpha=0.5, color="#555")
-            ax.plot(x[:1], y[:1], "o", label=f"{found['space']}, {found['blend']}")
-        ax.set(
-            xscale="log",
-            xlabel="detour (median, to the 90th percentile)",
-            ylabel="difference from the nearest material",
-        )
-        ax.legend()
-        _caption(figure, f"{label}: {measured[0]['n_pairs']} pairs, mixes at t = 1/2")
-        return figure
+    figure = empty((6, 4.2))
+    ax = figure.subplots()
+    for found in measured:
+        detour, realism = found["detour"], found["realism"]["log by cell"]
+        x, y = (np.array([of["median"], of["90th percentile"]]) for of in (detour, realism))
+        ax.plot(x, y, "-", lw=1, alpha=0.5, color="#555")
+        ax.plot(x[:1], y[:1], "o", label=f"{found['space']}, {found['blend']}")
+    ax.set(
+        xscale="log",
+        xlabel="detour (median, to the 90th percentile)",
+        ylabel="difference from the nearest material",
+    )
+    ax.legend()
+    _caption(figure, f"{label}: {measured[0]['n_pairs']} pairs, mixes at t = 1/2")
+    return figure
 
 
 def write(stem: Location, figure: "Figure") -> None:
@@ -130,13 +139,6 @@ def save(path: Location, figure: "Figure") -> None:
     with replacing(path) as temporary:
         metadata = {"Date": None} if kind == "svg" else None
         figure.savefig(temporary, dpi=160, format=kind, metadata=metadata)
-
-
-def _subplots(n_rows: int, n_columns: int, size: tuple[float, float]) -> tuple["Figure", Any]:
-    from matplotlib.figure import Figure
-
-    figure = Figure(figsize=size, layout="constrained")
-    return figure, figure.subplots(n_rows, n_columns)
 
 
 def _caption(figure: "Figure", text: str) -> None:

@@ -90,15 +90,14 @@ def to_material(model: Gltf, name: str) -> dict[str, Any]:
 class Mesh(NamedTuple):
     """A sphere of radius 1: 16-bit indices, then positions, which are the normals too; then tangents, if it has them."""
 
-    data: bytes
-    n_indices: int
-    n_vertices: int
-    n_index_bytes: int
-    n_position_bytes: int
+    indices: np.ndarray
+    positions: np.ndarray
+    tangents: np.ndarray | None
 
     @property
-    def has_tangents(self) -> bool:
-        return len(self.data) > self.n_index_bytes + self.n_position_bytes
+    def data(self) -> bytes:
+        """The buffer."""
+        return b"".join(part.tobytes() for part in self if part is not None)
 
 
 def _document(fit: Fit, buffer: dict[str, Any]) -> dict[str, Any]:
@@ -130,60 +129,26 @@ def _document(fit: Fit, buffer: dict[str, Any]) -> dict[str, Any]:
 
 def _geometry(mesh: Mesh) -> dict[str, Any]:
     """The sphere as glTF says where it is in the buffer."""
-    geometry = _without_tangents(mesh)
-    if mesh.has_tangents:
-        start = mesh.n_index_bytes + mesh.n_position_bytes
-        (shape,) = geometry["meshes"]
-        shape["primitives"][0]["attributes"]["TANGENT"] = 2
-        geometry["accessors"].append(
-            {"bufferView": 2, "componentType": FLOAT, "count": mesh.n_vertices, "type": "VEC4"}
-        )
-        geometry["bufferViews"].append(
-            {
-                "buffer": 0,
-                "byteOffset": start,
-                "byteLength": len(mesh.data) - start,
-                "target": VERTICES,
-            }
-        )
-    return geometry
-
-
-def _without_tangents(mesh: Mesh) -> dict[str, Any]:
+    bounds = {"min": [-1.0, -1.0, -1.0], "max": [1.0, 1.0, 1.0]}
+    parts = [
+        (mesh.indices, INDICES, UNSIGNED_SHORT, {"type": "SCALAR"}),
+        (mesh.positions, VERTICES, FLOAT, {"type": "VEC3", **bounds}),
+    ]
+    attributes = {"POSITION": 1, "NORMAL": 1}
+    if mesh.tangents is not None:
+        parts.append((mesh.tangents, VERTICES, FLOAT, {"type": "VEC4"}))
+        attributes["TANGENT"] = 2
+    accessors, views, start = [], [], 0
+    for i, (part, target, component, shape) in enumerate(parts):
+        accessors.append({"bufferView": i, "componentType": component, "count": len(part), **shape})
+        offset = {"byteOffset": start} if start else {}
+        views.append({"buffer": 0, **offset, "byteLength": part.nbytes, "target": target})
+        start += part.nbytes
+    primitive = {"attributes": attributes, "indices": 0, "material": 0}
     return {
-        "meshes": [
-            {
-                "name": "sphere",
-                "primitives": [
-                    {"attributes": {"POSITION": 1, "NORMAL": 1}, "indices": 0, "material": 0}
-                ],
-            }
-        ],
-        "accessors": [
-            {
-                "bufferView": 0,
-                "componentType": UNSIGNED_SHORT,
-                "count": mesh.n_indices,
-                "type": "SCALAR",
-            },
-            {
-                "bufferView": 1,
-                "componentType": FLOAT,
-                "count": mesh.n_vertices,
-                "type": "VEC3",
-                "min": [-1.0, -1.0, -1.0],
-                "max": [1.0, 1.0, 1.0],
-            },
-        ],
-        "bufferViews": [
-            {"buffer": 0, "byteLength": mesh.n_index_bytes, "target": INDICES},
-            {
-                "buffer": 0,
-                "byteOffset": mesh.n_index_bytes,
-                "byteLength": mesh.n_position_bytes,
-                "target": VERTICES,
-            },
-        ],
+        "meshes": [{"name": "sphere", "primitives": [primitive]}],
+        "accessors": accessors,
+        "bufferViews": views,
     }
 
 
@@ -203,16 +168,9 @@ def _sphere(*, with_tangents: bool) -> Mesh:
     below = corner + N_SEGMENTS + 1
     upper = np.stack([corner, below, corner + 1], axis=-1)[N_SEGMENTS:]
     lower = np.stack([corner + 1, below, below + 1], axis=-1)[:-N_SEGMENTS]
-    indices = np.concatenate([upper, lower]).astype("<u2")
+    indices = np.concatenate([upper, lower]).ravel().astype("<u2")
     tangents = np.stack([np.cos(phi), 0 * phi, -np.sin(phi), np.ones_like(phi)], axis=-1)
-    data = indices.tobytes() + positions.tobytes()
-    return Mesh(
-        data + tangents.astype("<f4").tobytes() if with_tangents else data,
-        indices.size,
-        len(positions),
-        indices.nbytes,
-        positions.nbytes,
-    )
+    return Mesh(indices, positions, tangents.astype("<f4") if with_tangents else None)
 
 
 def _light(i: int, direction: tuple[float, float, float]) -> dict[str, Any]:

@@ -15,7 +15,7 @@ from pathlib import Path
 
 from ..brdf import Brdf, TabularBrdf, lit_sphere, quality
 from ..errors import OutputError
-from ..files import replacing
+from ..files import write_text
 from ..formats import write_brdf, write_rgl
 from ..halfdiff import Grid
 from ..library import Library
@@ -93,10 +93,7 @@ def write_recipe(path: Path, library: Library, recipe: Recipe) -> None:
         "library_checksum": library.checksum,
         **asdict(library.origin),
     }
-    with replacing(path) as temporary:
-        temporary.write_text(
-            json.dumps(document, indent=1, ensure_ascii=False) + "\n", encoding="utf-8"
-        )
+    write_text(path, json.dumps(document, indent=1, ensure_ascii=False) + "\n")
 
 
 def write_materials(

@@ -6,11 +6,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..brdf import Brdf, TabularBrdf
-from ..halfdiff import HalfDiff, from_half_diff
+from ..halfdiff import HalfDiff, from_half_diff, to_half_diff
 from ..look import portrait, to_png
 from ..measurements import Angles
 from ..recovery import Completion, Plan, Recovery
-from .figures import COLOURS, STYLE
+from .figures import COLOURS, empty, styled
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -24,36 +24,28 @@ _WIDEST = np.log(4)
 """Of the map of uncertainty: from a quarter to four times."""
 
 
+@styled
 def recovered(recovery: Recovery, completion: Completion, mix: TabularBrdf) -> "Figure":
     """Spheres of the completion, the ends of its interval and the mix; two slices; and how sure each direction is."""
-    import matplotlib as mpl
-
-    with mpl.rc_context(STYLE):
-        from matplotlib.figure import Figure
-
-        figure = Figure(figsize=(12, 7), layout="constrained")
-        grid = figure.add_gridspec(2, 3, height_ratios=(1, 1.3))
-        _spheres(figure.add_subplot(grid[0, :]), completion, mix)
-        for i, degrees in enumerate(SLICE_DEGREES):
-            _slice(figure.add_subplot(grid[1, i]), recovery, completion, mix, degrees)
-        _map(figure, figure.add_subplot(grid[1, 2]), recovery, completion)
-        return figure
+    figure = empty((12, 7))
+    grid = figure.add_gridspec(2, 3, height_ratios=(1, 1.3))
+    _spheres(figure.add_subplot(grid[0, :]), completion, mix)
+    for i, degrees in enumerate(SLICE_DEGREES):
+        _slice(figure.add_subplot(grid[1, i]), recovery, completion, mix, degrees)
+    _map(figure, figure.add_subplot(grid[1, 2]), recovery, completion)
+    return figure
 
 
+@styled
 def planned(plan: Plan) -> "Figure":
     """The pairs of directions over the hemisphere, numbered, and how much is unknown after each."""
-    import matplotlib as mpl
-
-    with mpl.rc_context(STYLE):
-        from matplotlib.figure import Figure
-
-        figure = Figure(figsize=(9, 4.4), layout="constrained")
-        _pairs(figure.add_subplot(1, 2, 1, projection="polar"), plan)
-        right = figure.add_subplot(1, 2, 2)
-        right.plot(np.append(plan.unknown, plan.left), ".-", color="#444")
-        right.set(ylim=(0, None), xlabel="pairs measured", ylabel="natural logarithms")
-        right.set_title("What is still unknown, root mean square")
-        return figure
+    figure = empty((9, 4.4))
+    _pairs(figure.add_subplot(1, 2, 1, projection="polar"), plan)
+    right = figure.add_subplot(1, 2, 2)
+    right.plot(np.append(plan.unknown, plan.left), ".-", color="#444")
+    right.set(ylim=(0, None), xlabel="pairs measured", ylabel="natural logarithms")
+    right.set_title("What is still unknown, root mean square")
+    return figure
 
 
 def _spheres(ax: "Axes", completion: Completion, mix: TabularBrdf) -> None:
@@ -125,16 +117,8 @@ def _map(figure: "Figure", ax: "Axes", recovery: Recovery, completion: Completio
     bar = figure.colorbar(shown, ax=ax, ticks=np.log([1, 1.25, 1.5, 2, 3, 4]))
     bar.ax.set_yticklabels(["1", "1.25", "1.5", "2", "3", "4"])
     bar.set_label("give or take this factor")
-    h = recovery.measurements.wi + recovery.measurements.wo
-    h /= np.linalg.norm(h, axis=1, keepdims=True)
-    cos_d = (h * recovery.measurements.wi).sum(axis=1)
-    ax.plot(
-        np.degrees(np.arccos(h[:, 2].clip(-1, 1))),
-        np.degrees(np.arccos(cos_d.clip(-1, 1))),
-        "o",
-        mfc="none",
-        mec="#e33",
-    )
+    at = to_half_diff(recovery.measurements.wi, recovery.measurements.wo)
+    ax.plot(np.degrees(at.theta_h), np.degrees(at.theta_d), "o", mfc="none", mec="#e33")
     ax.set(
         xlabel="theta_h (degrees)", ylabel="theta_d (degrees)", title="How sure; circles: measured"
     )

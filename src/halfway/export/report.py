@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from ..components import Pca
-from ..files import replacing
+from ..files import write_text
 from ..library import Library
 from ..locations import Location
 from ..recipes import CHANNELS
@@ -104,8 +104,7 @@ def write_report(
 ) -> Report:
     """Write report.json and the figures into ``folder``; ``spaces`` are those of `compare_spaces`."""
     report = Report.of(library, pca, n_components=n_components, spaces=spaces)
-    with replacing(folder / "report.json") as temporary:
-        temporary.write_text(json.dumps(report.to_json(), indent=1), encoding="utf-8")
+    write_text(folder / "report.json", json.dumps(report.to_json(), indent=1))
     label = Path(library.name).name
     if "stand-in" in library.origin.description:
         label += " (stand-ins, not measurements)"

@@ -12,11 +12,12 @@ import json
 from collections.abc import Sequence
 from dataclasses import replace
 
+from ..batch import Written
 from ..library import Library, LibraryRef
 from ..locations import Location
 from ..space import Route
 from ..tasks import HERE, Work
-from .tables import Written, write_tables
+from .tables import write_tables
 
 RECIPES = "recipes.json"
 

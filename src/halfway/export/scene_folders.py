@@ -4,7 +4,7 @@ import json
 from collections.abc import Sequence
 from pathlib import Path
 
-from ..files import replacing
+from ..files import write_text
 from ..recipes import NamedBrdf, file_names
 from ..tasks import HERE, Work
 from .scenes import SceneFolder, readme, write_scene
@@ -12,11 +12,7 @@ from .usd import MATERIALS, SCENE, Fits, write_usd
 
 
 def write_scenes(
-    folder: Path,
-    materials: Sequence[NamedBrdf],
-    renderer: str,
-    *,
-    work: Work = HERE,
+    folder: Path, materials: Sequence[NamedBrdf], renderer: str, *, work: Work = HERE
 ) -> list[SceneFolder]:
     """Write each material with a scene for ``renderer``; see `write_scene`.
 
@@ -47,11 +43,9 @@ def _write_usd(folder: Path, materials: Sequence[NamedBrdf], work: Work) -> Scen
     write_usd(folder, fits)
     # Materials of one library share most lines.
     origin = "\n".join(dict.fromkeys("\n".join(map(_origin, materials)).splitlines())).strip()
+    what = "Spheres that wear the materials, in any program that opens USD; for instance:"
     page = folder / "README.md"
-    with replacing(page) as temporary:
-        what = "Spheres that wear the materials, in any program that opens USD; for instance:"
-        text = readme("Materials for USD", origin, what, f"usdview {SCENE}", _USD)
-        temporary.write_text(text, encoding="utf-8")
+    write_text(page, readme("Materials for USD", origin, what, f"usdview {SCENE}", _USD))
     return SceneFolder(folder, (folder / MATERIALS, folder / SCENE, page), f"usdview {SCENE}")
 
 

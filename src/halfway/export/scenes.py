@@ -19,7 +19,7 @@ from typing import NamedTuple
 
 from ..brdf import Brdf, TabularBrdf, tabulate
 from ..errors import OutputError
-from ..files import replacing
+from ..files import write_text
 from ..formats import write_brdf, write_merl, write_rgl
 from ..halfdiff import MERL
 
@@ -107,8 +107,7 @@ def write_scene(
     what = f"A sphere of {name}, under an even environment and three point lights."
     texts["README.md"] = readme(name, origin, f"{what} In this folder:", command, notes)
     for file, text in texts.items():
-        with replacing(folder / file) as temporary:
-            temporary.write_text(text, encoding="utf-8")
+        write_text(folder / file, text)
     return SceneFolder(folder, tuple(folder / file for file in (*files, *texts)), command)
 
 

@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..batch import Batch, Checksum
+from ..batch import Batch, Checksum, Written
 from ..brdf import TabularBrdf, half_scale
 from ..errors import OutputError
 from ..files import replacing
@@ -30,14 +30,6 @@ FORMATS = ("none", "merl", "bsdf", "zarr")
 BSDF_BYTES = 18_000_000
 ANISOTROPIC_BSDF_BYTES = 175_000_000
 """Of the largest files that `halfway.formats.write_brdf` makes of its own accord."""
-
-
-class Written(NamedTuple):
-    """What `write_tables` did."""
-
-    n_written: int
-    n_kept: int
-    """Tables that an earlier run had finished."""
 
 
 def write_tables(

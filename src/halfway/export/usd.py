@@ -18,7 +18,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from ..errors import OutputError
-from ..files import replacing
+from ..files import write_text
 from ..fit import Fit
 from .materialx import NODES, identifier, printable
 
@@ -47,16 +47,9 @@ class Fits(NamedTuple):
 
 
 def write_usd(folder: Path, fits: Sequence[Fits]) -> tuple[str, str]:
-    """Write the two layers into ``folder``; the names of their files.
-
-    Raises
-    ------
-    OutputError
-        When a file cannot be written.
-    """
+    """Write the two layers into ``folder``; the names of their files."""
     for name, text in ((MATERIALS, to_usda(fits)), (SCENE, _scene(fits))):
-        with replacing(folder / name) as temporary:
-            temporary.write_text(text, encoding="utf-8")
+        write_text(folder / name, text)
     return MATERIALS, SCENE
 
 

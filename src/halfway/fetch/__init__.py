@@ -5,7 +5,7 @@ from pathlib import Path
 
 import httpx
 
-from ..files import replacing
+from ..files import write_text
 from .catalogue import Dataset, Download, dataset, rgl_names
 from .download import Line, Progress, download
 from .unpack import unpack
@@ -63,8 +63,7 @@ def fetch(
         line = Line(client, progress or _silent)
         files = [download(item, folder, line) for item in wanted.downloads]
     licence = folder / f"{wanted.name}.licence.txt"
-    with replacing(licence) as temporary:
-        temporary.write_text(_licence(wanted), encoding="utf-8")
+    write_text(licence, _licence(wanted))
     unpacked = [path for file in files for path in unpack(file, folder)] if wanted.unpack else []
     return Fetched(wanted, tuple(files), tuple(unpacked), licence)
 

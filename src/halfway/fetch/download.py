@@ -52,13 +52,7 @@ class Line(NamedTuple):
 
 
 def download(item: Download, folder: Path, line: Line) -> Path:
-    """The path of ``item`` in ``folder``, downloaded if it is not there already, and verified.
-
-    Raises
-    ------
-    FetchError
-        When it cannot be had, or is not what it should be.
-    """
+    """The path of ``item`` in ``folder``, downloaded if it is not there already, and verified; or a `FetchError`."""
     path = folder / item.file
     if path.is_file() and _fault(path, item) is None:
         return path

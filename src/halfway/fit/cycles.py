@@ -16,7 +16,7 @@ facets: E. Heitz, JCGT 7(4), 2018.
 
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any, ClassVar
+from typing import Annotated, Any, ClassVar
 
 import numpy as np
 
@@ -35,31 +35,18 @@ _N_RADII, _N_TURNS = 8, 12
 class Cycles(AnalyticModel):
     """The inputs of the node that stand for an opaque isotropic table, under their names there."""
 
-    base_color: Any
-    metallic: float = 0.0
-    roughness: float = 0.5
-    ior: float = 1.5
-    specular_tint: Any = 1.0
-    coat_weight: float = 0.0
-    coat_roughness: float = 0.03
+    base_color: Annotated[Any, Range(0, 1, 0.5)]
+    metallic: Annotated[float, Range(0, 1, 0)] = 0.0
+    roughness: Annotated[float, Range(0.02, 1, 0.5)] = 0.5
+    ior: Annotated[float, Range(1, 3, 1.5)] = 1.5
+    specular_tint: Annotated[Any, Range(0, 1, 1)] = 1.0
+    coat_weight: Annotated[float, Range(0, 1, 0)] = 0.0
+    coat_roughness: Annotated[float, Range(0.02, 1, 0.1)] = 0.03
 
     formula: ClassVar[str] = "Blender's Principled BSDF"
     colours: ClassVar[frozenset[str]] = frozenset({"base_color", "specular_tint"})
     main_lobe: ClassVar = "roughness", "metallic"
-    opening: ClassVar = {
-        "specular_tint": 0.95,
-        "coat_weight": 0.1,
-        "coat_roughness": 0.1,
-    }
-    ranges: ClassVar = {
-        "base_color": Range(0, 1, 0.5),
-        "metallic": Range(0, 1, 0),
-        "roughness": Range(0.02, 1, 0.5),
-        "ior": Range(1, 3, 1.5),
-        "specular_tint": Range(0, 1, 1),
-        "coat_weight": Range(0, 1, 0),
-        "coat_roughness": Range(0.02, 1, 0.1),
-    }
+    opening: ClassVar = {"specular_tint": 0.95, "coat_weight": 0.1, "coat_roughness": 0.1}
 
     def of(self, pair: Pair) -> np.ndarray:
         lobe = _lobe(pair, self.roughness)

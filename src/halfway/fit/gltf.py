@@ -20,7 +20,7 @@ KHR_materials_clearcoat, KHR_materials_anisotropy, the sections "Implementation"
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import Annotated, Any, ClassVar
 
 import numpy as np
 
@@ -36,16 +36,16 @@ COAT_F0 = 0.04
 class Gltf(AnalyticModel):
     """The parameters of a glTF material, in the order of its extensions."""
 
-    base_color: Any
-    metallic: float = 0.0
-    roughness: float = 1.0
-    ior: float = 1.5
-    specular: float = 1.0
-    specular_color: Any = 1.0
-    clearcoat: float = 0.0
-    clearcoat_roughness: float = 0.0
-    anisotropy_strength: float = 0.0
-    anisotropy_rotation: float = 0.0
+    base_color: Annotated[Any, Range(0, 1, 0.5)]
+    metallic: Annotated[float, Range(0, 1, 0)] = 0.0
+    roughness: Annotated[float, Range(0.02, 1, 0.5)] = 1.0
+    ior: Annotated[float, Range(1, 3, 1.5)] = 1.5
+    specular: Annotated[float, Range(0, 1, 1)] = 1.0
+    specular_color: Annotated[Any, Range(0, 1, 1)] = 1.0
+    clearcoat: Annotated[float, Range(0, 1, 0)] = 0.0
+    clearcoat_roughness: Annotated[float, Range(0.02, 1, 0.1)] = 0.0
+    anisotropy_strength: Annotated[float, Range(0, 1, 0)] = 0.0
+    anisotropy_rotation: Annotated[float, ANY_TURN] = 0.0
 
     formula: ClassVar[str] = "glTF 2.0 metallic-roughness"
     colours: ClassVar[frozenset[str]] = frozenset({"base_color", "specular_color"})
@@ -55,18 +55,6 @@ class Gltf(AnalyticModel):
         "specular_color": 0.95,
         "clearcoat": 0.1,
         "clearcoat_roughness": 0.1,
-    }
-    ranges: ClassVar = {
-        "base_color": Range(0, 1, 0.5),
-        "metallic": Range(0, 1, 0),
-        "roughness": Range(0.02, 1, 0.5),
-        "ior": Range(1, 3, 1.5),
-        "specular": Range(0, 1, 1),
-        "specular_color": Range(0, 1, 1),
-        "clearcoat": Range(0, 1, 0),
-        "clearcoat_roughness": Range(0.02, 1, 0.1),
-        "anisotropy_strength": Range(0, 1, 0),
-        "anisotropy_rotation": ANY_TURN,
     }
     grain: ClassVar = "anisotropy_strength", "anisotropy_rotation"
 

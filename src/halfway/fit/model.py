@@ -6,7 +6,7 @@ A model is a `Brdf`: it is evaluated, tabulated, checked and rendered as any oth
 from abc import abstractmethod
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, ClassVar, NamedTuple
+from typing import Any, ClassVar, NamedTuple, get_type_hints
 
 import numpy as np
 from jaxtyping import Float64
@@ -42,7 +42,7 @@ class AnalyticModel(IsotropicModel):
     """A model of renderers: a frozen dataclass of numbers and colours (shape (3,), linear RGB)."""
 
     ranges: ClassVar[Mapping[str, Range]]
-    """Of each parameter, in the order of the fields; a colour's range is that of each channel."""
+    """Of each parameter, in the order of the fields, which say them; a colour's range is that of each channel."""
     colours: ClassVar[frozenset[str]]
     """The parameters of three channels."""
     main_lobe: ClassVar[tuple[str, str]]
@@ -55,6 +55,12 @@ class AnalyticModel(IsotropicModel):
     """From how many of the starts to search."""
     simpler: ClassVar[Sequence[Mapping[str, float]]] = ()
     """Parameters that may be held, by their values, for the sake of other programs."""
+
+    def __init_subclass__(cls) -> None:
+        if "ranges" not in vars(cls):
+            hints = get_type_hints(cls, include_extras=True).items()
+            said = ((name, getattr(hint, "__metadata__", ())) for name, hint in hints)
+            cls.ranges = {name: r for name, notes in said for r in notes if isinstance(r, Range)}
 
     @classmethod
     def starts(cls, body: Colour, glossy: Colour) -> Sequence["AnalyticModel"]:

@@ -26,7 +26,7 @@ E. Turquin, "Practical Multiple Scattering Compensation for Microfacet Models", 
 
 import math
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import Annotated, Any, ClassVar
 
 import numpy as np
 
@@ -45,19 +45,19 @@ LEAST_FUZZ = 0.01
 class OpenPbr(AnalyticModel):
     """The parameters of OpenPBR that stand for an opaque table, under their names there; and where its tangent points."""
 
-    base_color: Any
-    base_diffuse_roughness: float = 0.0
-    base_metalness: float = 0.0
-    specular_color: Any = 1.0
-    specular_roughness: float = 0.3
-    specular_ior: float = 1.5
-    coat_weight: float = 0.0
-    coat_roughness: float = 0.0
-    fuzz_weight: float = 0.0
-    fuzz_color: Any = 1.0
-    fuzz_roughness: float = 0.5
-    specular_roughness_anisotropy: float = 0.0
-    tangent_rotation: float = 0.0
+    base_color: Annotated[Any, Range(0, 1, 0.5)]
+    base_diffuse_roughness: Annotated[float, Range(0, 1, 0)] = 0.0
+    base_metalness: Annotated[float, Range(0, 1, 0)] = 0.0
+    specular_color: Annotated[Any, Range(0, 1, 1)] = 1.0
+    specular_roughness: Annotated[float, Range(0.02, 1, 0.3)] = 0.3
+    specular_ior: Annotated[float, Range(1, 3, 1.5)] = 1.5
+    coat_weight: Annotated[float, Range(0, 1, 0)] = 0.0
+    coat_roughness: Annotated[float, Range(0.02, 1, 0.1)] = 0.0
+    fuzz_weight: Annotated[float, Range(0, 1, 0)] = 0.0
+    fuzz_color: Annotated[Any, Range(0, 1, 1)] = 1.0
+    fuzz_roughness: Annotated[float, Range(0.1, 1, 0.5)] = 0.5
+    specular_roughness_anisotropy: Annotated[float, Range(0, 0.95, 0)] = 0.0
+    tangent_rotation: Annotated[float, ANY_TURN] = 0.0
 
     formula: ClassVar[str] = "OpenPBR 1.1"
     colours: ClassVar[frozenset[str]] = frozenset({"base_color", "specular_color", "fuzz_color"})
@@ -69,21 +69,6 @@ class OpenPbr(AnalyticModel):
         "coat_roughness": 0.1,
         "fuzz_weight": 0.1,
         "fuzz_color": 0.95,
-    }
-    ranges: ClassVar = {
-        "base_color": Range(0, 1, 0.5),
-        "base_diffuse_roughness": Range(0, 1, 0),
-        "base_metalness": Range(0, 1, 0),
-        "specular_color": Range(0, 1, 1),
-        "specular_roughness": Range(0.02, 1, 0.3),
-        "specular_ior": Range(1, 3, 1.5),
-        "coat_weight": Range(0, 1, 0),
-        "coat_roughness": Range(0.02, 1, 0.1),
-        "fuzz_weight": Range(0, 1, 0),
-        "fuzz_color": Range(0, 1, 1),
-        "fuzz_roughness": Range(0.1, 1, 0.5),
-        "specular_roughness_anisotropy": Range(0, 0.95, 0),
-        "tangent_rotation": ANY_TURN,
     }
     grain: ClassVar = "specular_roughness_anisotropy", "tangent_rotation"
 

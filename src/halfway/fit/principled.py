@@ -18,7 +18,7 @@ with Integrated Subsurface Scattering", 2015; what Mitsuba makes of them: the pa
 
 import math
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import Annotated, Any, ClassVar
 
 import numpy as np
 
@@ -36,18 +36,18 @@ LEAST_WIDTH = 0.001
 class Principled(AnalyticModel):
     """The parameters of Mitsuba's ``principled``, under their names there; and where its tangent points."""
 
-    base_color: Any
-    roughness: float = 0.5
-    metallic: float = 0.0
-    specular: float = 0.5
-    spec_tint: float = 0.0
-    clearcoat: float = 0.0
-    clearcoat_gloss: float = 0.0
-    sheen: float = 0.0
-    sheen_tint: float = 0.0
-    flatness: float = 0.0
-    anisotropic: float = 0.0
-    tangent_rotation: float = 0.0
+    base_color: Annotated[Any, Range(0, 1, 0.5)]
+    roughness: Annotated[float, Range(0.02, 1, 0.5)] = 0.5
+    metallic: Annotated[float, Range(0, 1, 0)] = 0.0
+    specular: Annotated[float, Range(0.01, 1, 0.5)] = 0.5
+    spec_tint: Annotated[float, Range(0, 1, 0)] = 0.0
+    clearcoat: Annotated[float, Range(0, 1, 0)] = 0.0
+    clearcoat_gloss: Annotated[float, Range(0, 1, 0)] = 0.0
+    sheen: Annotated[float, Range(0, 1, 0)] = 0.0
+    sheen_tint: Annotated[float, Range(0, 1, 0)] = 0.0
+    flatness: Annotated[float, Range(0, 1, 0)] = 0.0
+    anisotropic: Annotated[float, Range(0, 1, 0)] = 0.0
+    tangent_rotation: Annotated[float, ANY_TURN] = 0.0
 
     formula: ClassVar[str] = "Mitsuba principled"
     colours: ClassVar[frozenset[str]] = frozenset({"base_color"})
@@ -59,20 +59,6 @@ class Principled(AnalyticModel):
         "sheen": 0.05,
         "sheen_tint": 0.1,
         "flatness": 0.2,
-    }
-    ranges: ClassVar = {
-        "base_color": Range(0, 1, 0.5),
-        "roughness": Range(0.02, 1, 0.5),
-        "metallic": Range(0, 1, 0),
-        "specular": Range(0.01, 1, 0.5),
-        "spec_tint": Range(0, 1, 0),
-        "clearcoat": Range(0, 1, 0),
-        "clearcoat_gloss": Range(0, 1, 0),
-        "sheen": Range(0, 1, 0),
-        "sheen_tint": Range(0, 1, 0),
-        "flatness": Range(0, 1, 0),
-        "anisotropic": Range(0, 1, 0),
-        "tangent_rotation": ANY_TURN,
     }
     grain: ClassVar = "anisotropic", "tangent_rotation"
 

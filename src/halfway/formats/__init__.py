@@ -1,9 +1,9 @@
 """File formats of BRDFs. A file is what its first bytes say, whatever its name."""
 
-from . import spectra, zarr_tables
+from . import hdf5, spectra, zarr_tables
 from .content import merl_bytes
 from .find import Skipped, SourceBrdf, find_brdfs, read_brdf, read_nbrdf_archive
-from .merl import MerlFile, encode_header, read_merl, write_merl, write_samples
+from .merl import MerlFile, encode_header, read_merl, write_merl
 from .nbrdf import NeuralBrdf, read_nbrdf
 from .rgl import RglBrdf
 from .rgl_reader import read_rgl
@@ -20,6 +20,7 @@ __all__ = [
     "SourceBrdf",
     "encode_header",
     "find_brdfs",
+    "hdf5",
     "merl_bytes",
     "read_brdf",
     "read_merl",
@@ -30,6 +31,5 @@ __all__ = [
     "write_brdf",
     "write_merl",
     "write_rgl",
-    "write_samples",
     "zarr_tables",
 ]

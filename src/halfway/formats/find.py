@@ -250,13 +250,7 @@ def _examine(location: str, label: str, open_source: Callable[[], Source]) -> So
 
 
 def _inspect(source: Source) -> SourceBrdf:
-    """What a source is, from its first bytes and its size.
-
-    Raises
-    ------
-    FormatError
-        When it is no BRDF, or cannot be one because of its size.
-    """
+    """What a source is, from its first bytes and its size; a `FormatError` says why it can be no BRDF."""
     if isinstance(source, MemberSource):
         _require_modest(source)
     head = source.head(HEAD_BYTES)

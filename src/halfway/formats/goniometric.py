@@ -24,8 +24,6 @@ Explorer.
 import hashlib
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import reduce
-from itertools import product
 from math import prod
 from typing import NamedTuple
 
@@ -34,7 +32,7 @@ import numpy as np
 from .._types import Angle, Directions, Indices, Table, Values
 from ..brdf import Measurement
 from ..errors import FormatError
-from ..halfdiff import Corners, above_horizon
+from ..halfdiff import Corners, above_horizon, to_polar
 from .content import CSAIL_HEADER, UTIA_BYTES
 from .sources import Source
 
@@ -103,22 +101,12 @@ class GoniometricBrdf(Measurement):
 
     def _corners(self, wi: Directions, wo: Directions) -> Corners:
         angles = self.coordinates(wi, wo)
-        sides = [axis.around(angle) for axis, angle in zip(self.nodes, angles, strict=True)]
-        shape = self.values.shape[1:]
-        corners = list(product(*sides))
-        cells = [np.ravel_multi_index(tuple(c for c, _ in corner), shape) for corner in corners]
-        weights = [reduce(np.multiply, [w for _, w in corner]) for corner in corners]
-        return Corners(np.stack(cells), np.stack(weights))
+        sides = (axis.around(angle) for axis, angle in zip(self.nodes, angles, strict=True))
+        return Corners.between(sides, self.values.shape[1:])
 
 
 def read_utia_source(source: Source) -> GoniometricBrdf:
-    """The material in a UTIA file.
-
-    Raises
-    ------
-    FormatError
-        When it has another size, or a value is not finite.
-    """
+    """The material in a UTIA file; a `FormatError` where it has another size, or a value is not finite."""
     values = _floats(source, 0, "<f8", (3, *_UTIA_SHAPE), UTIA_BYTES)
     _require_finite(values, source)
     theta, phi = Nodes(6, np.radians(15)), Nodes(48, np.radians(7.5), periodic=True)
@@ -126,13 +114,7 @@ def read_utia_source(source: Source) -> GoniometricBrdf:
 
 
 def read_csail_source(source: Source) -> GoniometricBrdf:
-    """The material in an anisotropic MIT CSAIL file.
-
-    Raises
-    ------
-    FormatError
-        When its size is not what its header says, or a value is not finite.
-    """
+    """The material in an anisotropic MIT CSAIL file; a `FormatError` where its header says another size, or a value is not finite."""
     header = CSAIL_HEADER.unpack(source.head(CSAIL_HEADER.size))
     shape, half = header[:4], bool(header[9])
     expected = CSAIL_HEADER.size + 12 * prod(shape)
@@ -157,11 +139,11 @@ def _bins(size: int, stop: float, *, periodic: bool = False) -> Nodes:
 
 
 def _both(wi: Directions, wo: Directions) -> tuple[Angle, ...]:
-    return (*_polar(wi), *_polar(wo))
+    return (*to_polar(wi), *to_polar(wo))
 
 
 def _difference(wi: Directions, wo: Directions) -> tuple[Angle, ...]:
-    (theta_i, phi_i), (theta_o, phi_o) = _polar(wi), _polar(wo)
+    (theta_i, phi_i), (theta_o, phi_o) = to_polar(wi), to_polar(wo)
     return theta_i, theta_o, np.mod(phi_o - phi_i, 2 * np.pi), phi_i
 
 
@@ -169,11 +151,6 @@ def _half(wi: Directions, wo: Directions) -> tuple[Angle, ...]:
     """As `_difference`, of the pair or of its reverse: whichever has phi_d within half a turn."""
     there, back = _difference(wi, wo), _difference(wo, wi)
     return tuple(np.where(there[2] <= np.pi, a, b) for a, b in zip(there, back, strict=True))
-
-
-def _polar(v: Directions) -> tuple[Angle, Angle]:
-    x, y, z = np.moveaxis(v, -1, 0)
-    return np.arctan2(np.hypot(x, y), z), np.arctan2(y, x)
 
 
 def _floats(

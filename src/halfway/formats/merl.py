@@ -128,7 +128,11 @@ class MerlFile:
         OutputError
             When the file cannot be written.
         """
-        write_samples(path, self.grid, self.samples)
+        header = encode_header(self.grid)
+        body = np.ascontiguousarray(self.samples, "<f8")
+        with replacing(Path(path)) as temporary, temporary.open("wb") as file:
+            file.write(header)
+            file.write(body.data.cast("B"))
 
 
 def read_merl(path: str | Path) -> TabularBrdf:
@@ -219,21 +223,6 @@ def encode_header(grid: Grid) -> bytes:
     return MERL_HEADER.pack(*grid.shape)
 
 
-def write_samples(path: str | Path, grid: Grid, samples: Samples) -> None:
-    """Write samples that are scaled for the file already, shape (3, *grid.shape), without copying them.
-
-    Raises
-    ------
-    OutputError
-        When the file cannot be written.
-    """
-    header = encode_header(grid)
-    body = np.ascontiguousarray(samples, "<f8")
-    with replacing(Path(path)) as temporary, temporary.open("wb") as file:
-        file.write(header)
-        file.write(body.data.cast("B"))
-
-
 def require_merl_shaped(grid: Grid, name: str = "") -> None:
     """Refuse a grid that a MERL file's header cannot state.
 
@@ -275,13 +264,7 @@ def read_grid(source: Source) -> Grid:
 
 
 def table_grid(source: Source) -> Grid:
-    """The grid of the table; where the header states another than the database's, a look at its samples decides.
-
-    Raises
-    ------
-    FormatError
-        As `read_grid`, and where a sample that was looked at is damaged.
-    """
+    """The grid of the table; where the header states another than the database's, a look at its samples decides. Raises as `read_grid` does."""
     stated = read_grid(source)
     looked_at = stated != MERL and source.n_bytes <= _LARGEST_LOOK
     return read_merl_source(source).grid if looked_at else stated

@@ -26,7 +26,7 @@ import numpy as np
 
 from .._types import Directions, Values
 from ..brdf import Measurement
-from ..halfdiff import above_horizon
+from ..halfdiff import above_horizon, to_polar
 from .rgl_warp import Interpolant, Warp, slices
 
 
@@ -84,9 +84,8 @@ class RglBrdf(Measurement):
 
     def _at(self, i: Directions, o: Directions) -> np.ndarray:
         i, o = self._folded(i, o)
-        m = i + o
-        theta_i, phi_i = _polar(i)
-        theta_m, phi_m = _polar(m)
+        theta_i, phi_i = map(np.asarray, to_polar(i))
+        theta_m, phi_m = map(np.asarray, to_polar(i + o))
         u_m = _u_theta(theta_m), _u_phi(phi_m - phi_i if self.is_isotropic else phi_m)
         where = slices((self.phi_i, self.theta_i), (phi_i, theta_i))
         values = self.rgb.at(*self.vndf.invert(*u_m, where), where)
@@ -109,11 +108,6 @@ class RglBrdf(Measurement):
         flip_x = np.where(i[:, 0] < 0, 1.0, -1.0) if n_parts == 4 else flip_y
         flip = np.stack([flip_x, flip_y, np.ones_like(flip_y)], axis=-1)
         return flip * i, flip * o
-
-
-def _polar(v: Directions) -> tuple[np.ndarray, np.ndarray]:
-    x, y, z = np.moveaxis(v, -1, 0)
-    return np.arctan2(np.hypot(x, y), z), np.arctan2(y, x)
 
 
 def _u_theta(theta: np.ndarray) -> np.ndarray:

@@ -25,10 +25,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .._types import Directions
 from ..brdf import Brdf, Quality, lit_sphere, quadrature, quality
 from ..colour import LUMINANCE
-from ..halfdiff import from_half_diff, reflect, turn
+from ..halfdiff import from_half_diff, from_polar, reflect, turn
 from .rgl_normals import Normals
 from .rgl_reader import from_fields
 from .rgl_warp import Interpolant, Warp, slices
@@ -179,8 +178,8 @@ def _slice(
     s_phi, s_theta = (s.ravel() for s in np.meshgrid(side, side, indexing="ij"))
     u_theta, u_phi = warp.sample(s_theta, s_phi, i_slice)
     theta_i, phi_i = of
-    i = _direction(np.array(theta_i), np.array(phi_i))
-    m = _direction(np.pi / 2 * u_theta**2, np.pi * (2 * u_phi - 1))
+    i = from_polar(np.array(theta_i), np.array(phi_i))
+    m = from_polar(np.pi / 2 * u_theta**2, np.pi * (2 * u_phi - 1))
     o = reflect(i, m, m @ i)
     values = brdf.eval(o, np.broadcast_to(i, o.shape))
     known = (o[:, 2] > _LEAST_COSINE) & (m @ i > 0) & np.isfinite(values).all(axis=1)
@@ -201,11 +200,6 @@ def _slice(
     light = np.where(o[:, 2] > 0, area, 0).reshape(size, size) * (rgb @ LUMINANCE)
     # The smallest summand keeps the density of a black material positive.
     return rgb, light + _LEAST_LIGHT * light.mean() + 1e-30
-
-
-def _direction(theta: np.ndarray, phi: np.ndarray) -> Directions:
-    sin = np.sin(theta)
-    return np.stack([sin * np.cos(phi), sin * np.sin(phi), np.cos(theta)], axis=-1)
 
 
 def _continued(values: np.ndarray, known: np.ndarray) -> np.ndarray:

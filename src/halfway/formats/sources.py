@@ -58,13 +58,7 @@ class Source(ABC):
 
     @contextmanager
     def open(self) -> Generator[BufferedIOBase]:
-        """The bytes as a stream.
-
-        Raises
-        ------
-        FormatError
-            When they cannot be read, now or inside the block.
-        """
+        """The bytes as a stream; a `FormatError` where they cannot be read, now or inside the block."""
         try:
             with self._open() as stream:
                 yield stream
@@ -82,10 +76,7 @@ class Source(ABC):
     def sha256(self) -> str:
         """Hex digits of the checksum of all bytes."""
         with self.open() as stream:
-            digest = hashlib.sha256()
-            while chunk := stream.read(1 << 20):
-                digest.update(chunk)
-        return digest.hexdigest()
+            return hashlib.file_digest(stream, "sha256").hexdigest()
 
 
 @dataclass(frozen=True)
@@ -163,13 +154,7 @@ class MemberSource(Source):
 
 
 def members(archive: Path) -> list[MemberSource]:
-    """The files in a zip, sorted by path.
-
-    Raises
-    ------
-    FormatError
-        When the zip is damaged.
-    """
+    """The files in a zip, sorted by path; a `FormatError` where the zip is damaged."""
     try:
         opened = zipfile.ZipFile(archive)
     except UNREADABLE as error:

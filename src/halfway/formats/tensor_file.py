@@ -63,13 +63,7 @@ def read_tensors(file: BufferedIOBase, label: str) -> dict[str, np.ndarray]:
 
 
 def write_tensor_file(path: Path, fields: Mapping[str, np.ndarray]) -> None:
-    """Write the arrays of ``fields`` as a tensor file; whole or not at all.
-
-    Raises
-    ------
-    OutputError
-        When the file cannot be written.
-    """
+    """Write the arrays of ``fields`` as a tensor file; whole or not at all."""
     arrays = {name: np.ascontiguousarray(array) for name, array in fields.items()}
     position = len(_header(arrays, dict.fromkeys(arrays, 0)))
     offsets: dict[str, int] = {}

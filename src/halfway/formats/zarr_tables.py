@@ -172,13 +172,7 @@ def metadata(
 
 
 def write_chunk(path: Path, table: TabularBrdf, scale: float) -> None:
-    """Write the chunk of one table in float16.
-
-    Raises
-    ------
-    OutputError
-        When the file cannot be written.
-    """
+    """Write the chunk of one table in float16, whole or not at all."""
     samples = (table.values / np.float32(scale)).astype("<f2")
     with replacing(path) as temporary:
         temporary.write_bytes(gzip.compress(samples.data, compresslevel=1, mtime=0))

@@ -1,6 +1,16 @@
 """Half/difference angles and the grids that sample them."""
 
-from .angles import HalfDiff, above_horizon, cosines, from_half_diff, reflect, to_half_diff, turn
+from .angles import (
+    HalfDiff,
+    above_horizon,
+    cosines,
+    from_half_diff,
+    from_polar,
+    reflect,
+    to_half_diff,
+    to_polar,
+    turn,
+)
 from .grid import MERL, Axis, Corners, Grid, common_grid
 
 __all__ = [
@@ -13,7 +23,9 @@ __all__ = [
     "common_grid",
     "cosines",
     "from_half_diff",
+    "from_polar",
     "reflect",
     "to_half_diff",
+    "to_polar",
     "turn",
 ]

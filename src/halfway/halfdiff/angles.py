@@ -37,18 +37,31 @@ def to_half_diff(wi: Directions, wo: Directions) -> HalfDiff:
     """Half/difference angles of the pairs ``(wi, wo)``; not defined where ``wi = -wo``."""
     h = wi + wo
     h = h / np.linalg.norm(h, axis=-1, keepdims=True)
-    theta_h, phi_h = _to_polar(h)
-    theta_d, phi_d = _to_polar(_rotate_y(turn(wi, -phi_h), -theta_h))
+    theta_h, phi_h = to_polar(h)
+    theta_d, phi_d = to_polar(_rotate_y(turn(wi, -phi_h), -theta_h))
     return HalfDiff(theta_h, phi_h, theta_d, phi_d)
 
 
 def from_half_diff(angles: HalfDiff) -> tuple[Directions, Directions]:
     """The pairs ``(wi, wo)`` with these half/difference angles; the inverse of `to_half_diff`."""
     theta_h, phi_h, theta_d, phi_d = np.broadcast_arrays(*angles)
-    d = _from_polar(theta_d, phi_d)
+    d = from_polar(theta_d, phi_d)
     mirrored = d * np.array([-1.0, -1.0, 1.0])
     wi, wo = (turn(_rotate_y(v, theta_h), phi_h) for v in (d, mirrored))
     return wi, wo
+
+
+def to_polar(v: Directions) -> tuple[Angle, Angle]:
+    """The angles of directions from the normal, and about it from the tangent."""
+    x, y, z = np.moveaxis(v, -1, 0)
+    # arctan2 keeps full precision near the pole, where arccos(z) loses half the digits.
+    return np.arctan2(np.hypot(x, y), z), np.arctan2(y, x)
+
+
+def from_polar(theta: Angle, phi: Angle) -> Directions:
+    """The directions at these angles; the inverse of `to_polar`."""
+    sin = np.sin(theta)
+    return np.stack([sin * np.cos(phi), sin * np.sin(phi), np.cos(theta)], axis=-1)
 
 
 def cosines(theta_h: Angle, theta_d: Angle, phi_d: Angle) -> tuple[Angle, Angle]:
@@ -87,17 +100,6 @@ def above_horizon(
     values = np.zeros((*lit.shape, 3))
     values[lit] = above
     return values
-
-
-def _to_polar(v: Directions) -> tuple[Angle, Angle]:
-    x, y, z = np.moveaxis(v, -1, 0)
-    # arctan2 keeps full precision near the pole, where arccos(z) loses half the digits.
-    return np.arctan2(np.hypot(x, y), z), np.arctan2(y, x)
-
-
-def _from_polar(theta: Angle, phi: Angle) -> Directions:
-    sin = np.sin(theta)
-    return np.stack([sin * np.cos(phi), sin * np.sin(phi), np.cos(theta)], axis=-1)
 
 
 def _rotate_y(v: Directions, angle: Angle) -> Directions:

@@ -19,7 +19,7 @@ i) is half a cell off: see the conventions page of the docs.
 """
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import lru_cache, reduce
 from itertools import product
@@ -73,6 +73,18 @@ class Corners(NamedTuple):
     weights: Float64[
         np.ndarray, "..."
     ]  # (n_corners, ...), non-negative, summing to 1 over the first axis
+
+    @classmethod
+    def between(
+        cls, sides: Iterable[Sequence[tuple[Indices, Angle]]], shape: tuple[int, ...]
+    ) -> "Corners":
+        """Those in a table of this shape, from the cells on each side along each axis and how much they count."""
+        corners = list(product(*sides))
+        cells = [
+            np.ravel_multi_index(tuple(cell for cell, _ in corner), shape) for corner in corners
+        ]
+        weights = [reduce(np.multiply, [weight for _, weight in corner]) for corner in corners]
+        return cls(np.stack(cells), np.stack(weights))
 
     def blend(self, values: Table) -> Float64[np.ndarray, "3 n"]:
         """The weighted mean of the samples at the corners that are measured; NaN where none is."""
@@ -225,16 +237,8 @@ class Grid:
 
     def multilinear(self, wi: Directions, wo: Directions) -> Corners:
         """The 2^d cells around each pair; periodic axes wrap, on the others the outer half cells clamp."""
-        sides = [
-            _neighbours(axis, x) for axis, x in zip(self.axes, self._positions(wi, wo), strict=True)
-        ]
-        corners = list(product(*sides))
-        cells = [
-            np.ravel_multi_index(tuple(cell for cell, _ in corner), self.shape)
-            for corner in corners
-        ]
-        weights = [reduce(np.multiply, [weight for _, weight in corner]) for corner in corners]
-        return Corners(np.stack(cells), np.stack(weights))
+        sides = map(_neighbours, self.axes, self._positions(wi, wo))
+        return Corners.between(sides, self.shape)
 
     def _positions(self, wi: Directions, wo: Directions) -> list[Angle]:
         angles = to_half_diff(wi, wo)

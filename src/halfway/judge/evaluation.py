@@ -80,12 +80,7 @@ class Bench:
     library: Library
 
     @classmethod
-    def fit(
-        cls,
-        library: Library,
-        *,
-        work: Work = HERE,
-    ) -> "Bench":
+    def fit(cls, library: Library, *, work: Work = HERE) -> "Bench":
         """The bench of ``library``; kept in the cache for the next time."""
         return cls(
             Looks.fit(library, PACING_SCENE, work=work),

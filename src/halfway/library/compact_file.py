@@ -95,13 +95,7 @@ def checksum(header: Header, arrays: Arrays) -> str:
 
 
 def write(path: Location, header: Header, arrays: Arrays) -> None:
-    """Write a compact library.
-
-    Raises
-    ------
-    OutputError
-        When the file cannot be written.
-    """
+    """Write a compact library, whole or not at all."""
     document = {
         "format": FORMAT,
         "grid": [asdict(axis) for axis in header.grid.axes],
@@ -175,13 +169,7 @@ def _parsed(path: Location) -> dict[str, Any]:
 
 
 def read_arrays(path: Location, header: Header) -> Arrays:
-    """The numbers of a compact library, which have its checksum.
-
-    Raises
-    ------
-    LibraryError
-        When they are damaged.
-    """
+    """The numbers of a compact library, which have its checksum, or a `LibraryError`."""
     arrays = _read_arrays(path, header)
     actual = checksum(header, arrays)
     if actual != header.checksum:

@@ -203,13 +203,7 @@ def _opened(kind: Any, path: Location, checksum: str) -> Library:
 
 
 def texts(fields: Mapping[str, Any]) -> Mapping[str, str]:
-    """The fields of an object in a file, which are all text.
-
-    Raises
-    ------
-    TypeError
-        When one is not.
-    """
+    """The fields of an object in a file, which are all text; a TypeError says which is not."""
     for key, value in fields.items():
         if not isinstance(value, str):
             raise TypeError(f"{key} is {value!r}, and no text")

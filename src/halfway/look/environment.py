@@ -20,7 +20,7 @@ from jaxtyping import Float, Float64, Int
 
 from .._types import Directions
 from ..colour import LUMINANCE
-from ..halfdiff import reflect
+from ..halfdiff import from_polar, reflect
 from .sphere_rule import Frame, Queries, viewer
 
 N_ROWS = 64
@@ -126,9 +126,7 @@ def _to_local(directions: Directions, frame: Frame) -> Directions:
 
 
 def _half_vectors(u: Numbers) -> Directions:
-    theta, phi = np.pi / 2 * u[..., 0] ** 2, 2 * np.pi * u[..., 1]
-    sin = np.sin(theta)
-    return np.stack([sin * np.cos(phi), sin * np.sin(phi), np.cos(theta)], axis=-1)
+    return from_polar(np.pi / 2 * u[..., 0] ** 2, 2 * np.pi * u[..., 1])
 
 
 def _half_vector_density(wi: Directions, wo: Directions) -> Numbers:

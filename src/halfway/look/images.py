@@ -44,11 +44,7 @@ class Looks:
 
     @classmethod
     def fit(
-        cls,
-        library: Library,
-        scene: SphereScene = PACING_SCENE,
-        *,
-        work: Work = HERE,
+        cls, library: Library, scene: SphereScene = PACING_SCENE, *, work: Work = HERE
     ) -> "Looks":
         """The pictures of ``library``; kept in the cache under the library's checksum."""
         key = f"basis-1-{scene.fingerprint()}-{library.checksum}"

@@ -53,12 +53,7 @@ class CellSamples:
 
     @classmethod
     def fit(
-        cls,
-        library: Library,
-        *,
-        n_cells: int = N_CELLS,
-        seed: int = 0,
-        work: Work = HERE,
+        cls, library: Library, *, n_cells: int = N_CELLS, seed: int = 0, work: Work = HERE
     ) -> "CellSamples":
         """Samples of ``library`` on about ``n_cells`` cells; kept in the cache under its checksum.
 
@@ -119,10 +114,7 @@ def body_mask(grid: Grid) -> Mask:
 
 
 def body_colours(
-    library: Library,
-    *,
-    blend: Blend = Blend.LINEAR,
-    work: Work = HERE,
+    library: Library, *, blend: Blend = Blend.LINEAR, work: Work = HERE
 ) -> Float64[np.ndarray, "N 3"]:
     """The body colours of all materials of ``library``, in the mapping of a blend; kept in the cache under its checksum.
 
@@ -177,10 +169,7 @@ def _read(
 
 
 def _read_one(
-    library: Library,
-    cells: Int[np.ndarray, " n_cells"],
-    body: Int[np.ndarray, " n_body"],
-    i: int,
+    library: Library, cells: Int[np.ndarray, " n_cells"], body: Int[np.ndarray, " n_body"], i: int
 ) -> tuple[Float32[np.ndarray, "3 n_cells"], Float64[np.ndarray, " 3"]]:
     row = library.row(i)
     return row[:, cells], _body_colour(library, row, body, i)

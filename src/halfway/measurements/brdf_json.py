@@ -37,13 +37,7 @@ _UNPOLARISED: tuple[Any, ...] = ("u", "unpolarized", "unpolarised", [1, 0, 0, 0]
 
 
 def read_brdf_json(text: str, label: str) -> Sheet:
-    """The numbers of a BRDF JSON file.
-
-    Raises
-    ------
-    FormatError
-        When it is no JSON, something is missing, units are others, lists differ in length, or light was polarised.
-    """
+    """The numbers of a BRDF JSON file; a `FormatError` where something is missing, in another unit or length, or light was polarised."""
     try:
         data = json.loads(text)["data"]
         n = len(data["BRDF"]["values"])

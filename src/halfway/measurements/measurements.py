@@ -15,6 +15,7 @@ from jaxtyping import Float64
 
 from .._types import Angle, Directions, Values
 from ..errors import FormatError
+from ..halfdiff import from_polar, to_polar
 
 _LENGTH_TOLERANCE = 1e-3
 
@@ -97,20 +98,11 @@ class Angles(NamedTuple):
     @classmethod
     def of(cls, wi: Directions, wo: Directions) -> "Angles":
         """The angles of pairs of unit vectors."""
-        pairs = (
-            (np.arctan2(np.hypot(v[:, 0], v[:, 1]), v[:, 2]), np.arctan2(v[:, 1], v[:, 0]))
-            for v in (wi, wo)
-        )
-        return cls(*(angle for pair in pairs for angle in pair))
+        return cls(*to_polar(wi), *to_polar(wo))
 
     def directions(self) -> tuple[Directions, Directions]:
         """The pairs ``(wi, wo)``, each of shape (n, 3)."""
-        return _direction(self.theta_i, self.phi_i), _direction(self.theta_o, self.phi_o)
-
-
-def _direction(theta: Angle, phi: Angle) -> Directions:
-    sin = np.sin(theta)
-    return np.stack([sin * np.cos(phi), sin * np.sin(phi), np.cos(theta)], axis=-1)
+        return from_polar(self.theta_i, self.phi_i), from_polar(self.theta_o, self.phi_o)
 
 
 def _require(sound: np.ndarray, values: np.ndarray, what: str, expected: str) -> None:

@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 
 from .._types import Directions
-from ..files import replacing
+from ..files import write_text
 from .measurements import Angles, Measurements
 
 _ANGLES = "theta_i [deg],phi_i [deg],theta_o [deg],phi_o [deg]"
@@ -31,8 +31,7 @@ def _degrees(wi: Directions, wo: Directions) -> np.ndarray:
 def _write(path: Path, header: str, *columns: np.ndarray) -> None:
     rows = zip(*(each.tolist() for each in columns), strict=True)
     lines = [",".join(_cell(x) for part in row for x in part) for row in rows]
-    with replacing(path) as temporary:
-        temporary.write_text("\n".join([header, *lines]) + "\n", encoding="utf-8")
+    write_text(path, "\n".join([header, *lines]) + "\n")
 
 
 def _cell(x: float | str) -> str:

@@ -123,8 +123,8 @@ def _crosshatched(metal: str, alpha_x: float, alpha_y: float) -> AnisotropicMode
     )
 
 
-def _plastic(alpha_x: float, alpha_y: float, body: Colour, n: float = 1.5) -> AnisotropicModel:
-    return Microfacets((Lobe(alpha_x, alpha_y, (n, n, n)),), body)
+def _plastic(alpha_x: float, alpha_y: float, body: Colour) -> AnisotropicModel:
+    return Microfacets((Lobe(alpha_x, alpha_y, (1.5, 1.5, 1.5)),), body)
 
 
 def _cloths() -> dict[str, AnisotropicModel]:

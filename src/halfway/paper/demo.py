@@ -5,7 +5,7 @@ from pathlib import Path
 
 from ..components import Pca
 from ..export import write_report
-from ..files import replacing
+from ..files import write_text
 from ..formats import write_brdf
 from ..library import Library
 from ..recipes import mix
@@ -26,8 +26,7 @@ def demonstrate(folder: Path, library: Library, *, work: Work = HERE) -> None:
     write_report(folder / "report", library, Pca.fit(library, work=work))
     way = route(library, *STOPS, space="paper", pace="uniform", work=work)
     ts = way.steps(N_MATERIALS)
-    with replacing(folder / "recipes.json") as temporary:
-        temporary.write_text(json.dumps(way.to_json(ts)), encoding="utf-8")
+    write_text(folder / "recipes.json", json.dumps(way.to_json(ts)))
     recipes = way.recipes(ts)
     for i in NEW_MATERIALS:
         write_brdf(folder / f"{i:03d}.binary", mix(library, recipes[i]))

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from ..export import TableRow, html_page, markdown_table
-from ..files import replacing
+from ..files import write_text
 from .reported import (
     N_COMPONENTS,
     N_STEPS,
@@ -21,8 +21,7 @@ def write_page(folder: Path, found: Reproduction) -> None:
     text = "\n\n".join(_sections(found)) + "\n"
     html = html_page("The paper's figures and tables", text)
     for name, content in (("page.md", text), ("page.html", html)):
-        with replacing(folder / name) as temporary:
-            temporary.write_text(content, encoding="utf-8")
+        write_text(folder / name, content)
 
 
 def _sections(found: Reproduction) -> Iterator[str]:

@@ -14,7 +14,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 from ..export import Report, figures
-from ..files import replacing
+from ..files import replacing, write_text
 from ..library import Library
 from ..recipes import Mixer
 from ..render import BasisPictures, Renderer, pictures
@@ -129,8 +129,7 @@ def reproduce(
         shape,
         spp,
     )
-    with replacing(folder / "paper.json") as temporary:
-        temporary.write_text(json.dumps(found.to_json(), indent=1), encoding="utf-8")
+    write_text(folder / "paper.json", json.dumps(found.to_json(), indent=1))
     write_page(folder, found)
     return found
 

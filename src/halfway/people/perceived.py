@@ -161,9 +161,7 @@ def lightness(scores: Scores) -> Float64[np.ndarray, "*k n_components"]:
     return (116 * response(luminance) - 16) / 100
 
 
-def _values(
-    x: Float64[np.ndarray, "*k n_components"],
-) -> Float64[np.ndarray, "*k n_networks"]:
+def _values(x: Float64[np.ndarray, "*k n_components"]) -> Float64[np.ndarray, "*k n_networks"]:
     return np.stack([network.of(x) for network in networks().values()], axis=-1)
 
 

@@ -52,11 +52,7 @@ class BasisPictures:
     """
 
     def __init__(
-        self,
-        renderer: Renderer,
-        table: Callable[[str], TabularBrdf],
-        *,
-        work: Work = HERE,
+        self, renderer: Renderer, table: Callable[[str], TabularBrdf], *, work: Work = HERE
     ) -> None:
         if not renderer.linear:
             raise RenderError(

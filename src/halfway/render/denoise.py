@@ -16,13 +16,7 @@ def denoiser_available() -> bool:
 
 
 def require_denoiser() -> None:
-    """Refuse where it is not.
-
-    Raises
-    ------
-    RenderError
-        Says what to install.
-    """
+    """Refuse where it is not, and say what to install."""
     if not denoiser_available():
         raise RenderError(
             "denoising needs the package mitsuba-oidn, which is not installed. "

@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..batch import Batch, Checksum
+from ..batch import Batch, Checksum, Written
 from ..errors import RenderError
 from ..tasks import HERE, Work
 from . import pictures
@@ -24,14 +24,6 @@ class Frame(NamedTuple):
     """Linear RGB radiance, shape (height, width, 3)."""
     label: str = ""
     """What stands under it beside others."""
-
-
-class Written(NamedTuple):
-    """What `write_frames` did."""
-
-    n_written: int
-    n_kept: int
-    """Pictures that an earlier run had finished."""
 
 
 def write_frames(

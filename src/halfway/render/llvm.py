@@ -62,13 +62,7 @@ def choose_llvm() -> None:
 
 
 def require_llvm() -> None:
-    """Refuse to compile through a library that cannot: the user's own, or the one of a Mitsuba that was imported before.
-
-    Raises
-    ------
-    RenderError
-        Says which it is and what to do.
-    """
+    """Refuse to compile through a library that cannot: the user's own, or the one of a Mitsuba that was imported before."""
     llvm = find_llvm()
     own = llvm if llvm is not None and llvm.origin == _OWN else None
     if own is not None and not own.path.is_file():

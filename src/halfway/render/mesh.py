@@ -84,7 +84,7 @@ def brushed(mesh: Mesh) -> Mesh:
     t = np.stack([-n[:, 1], n[:, 0], 0 * n[:, 0]], axis=-1)
     is_level = np.linalg.norm(t, axis=-1) <= 1e-6 * np.linalg.norm(n, axis=-1)
     t[is_level] = (1, 0, 0)
-    axes = np.stack([_unit(t), _unit(np.cross(n, t))], axis=1)
+    axes = np.stack([unit(t), unit(np.cross(n, t))], axis=1)
     corners = np.stack([a, b, c], axis=1) - a[:, None]
     return mesh._replace(uv=np.einsum("fcx,fux->fcu", corners, axes).astype(np.float32))
 
@@ -123,7 +123,7 @@ def disc(*, lean_degrees: float = 25.0, thickness: float = 0.06, n: int = 512) -
     for (r0, z0), (r1, z1) in pairwise(profile):
         positions = np.stack([around * r + (0, 0, z) for r, z in ((r0, z0), (r1, z1))])
         normal = around * (z0 - z1) + np.array([0, 0, r1 - r0])
-        meshes.append(sheet(positions, np.broadcast_to(_unit(normal), positions.shape)))
+        meshes.append(sheet(positions, np.broadcast_to(unit(normal), positions.shape)))
     whole = joined(meshes)
     tilt = np.radians(90 - lean_degrees)
     c, s = np.cos(tilt), np.sin(tilt)
@@ -166,11 +166,11 @@ def outward(
     given = np.linalg.norm(normals, axis=1, keepdims=True) > 0
     other_side = np.einsum("ij,ij->i", normals, made)[:, None] < 0
     normals = np.where(given, np.where(other_side, -normals, normals), made)
-    length = np.linalg.norm(normals, axis=1, keepdims=True)
-    return Mesh.of(positions, normals / np.where(length > 0, length, 1), faces, uv)
+    return Mesh.of(positions, unit(normals), faces, uv)
 
 
-def _unit(v: np.ndarray) -> np.ndarray:
+def unit(v: np.ndarray) -> np.ndarray:
+    """Vectors of length 1 along others; 0 where they are 0."""
     length = np.linalg.norm(v, axis=-1, keepdims=True)
     return v / np.where(length > 0, length, 1)
 

@@ -22,13 +22,7 @@ _NUMBERS = b"0123456789+-"
 
 
 def parse_obj(content: bytes) -> Polygons:
-    """The polygons of an OBJ file.
-
-    Raises
-    ------
-    MeshFault
-        When a point, a normal or a face is not numbers.
-    """
+    """The polygons of an OBJ file; a `MeshFault` where a point, a normal or a face is not numbers."""
     text = re.sub(rb"#[^\r\n]*", b"", content.removeprefix(b"\xef\xbb\xbf"))
     text = re.sub(rb"\\\r?\n", b" ", text).translate(bytes.maketrans(b"\t\r", b" \n"))
     lines = [line.strip() for line in text.split(b"\n")]

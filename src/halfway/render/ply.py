@@ -67,13 +67,7 @@ class _Column(NamedTuple):
 
 
 def parse_ply(content: bytes) -> Polygons:
-    """The polygons of a PLY file.
-
-    Raises
-    ------
-    MeshFault
-        When it is no PLY file, is truncated, or has no vertices or faces.
-    """
+    """The polygons of a PLY file; a `MeshFault` where it is none, is truncated, or has no vertices or faces."""
     elements, data = _header(content)
     columns: dict[str, dict[str, _Column]] = {}
     end = 0

@@ -29,13 +29,7 @@ class PictureFault(ValueError):  # noqa: N818 (it is caught where the file's nam
 
 
 def parse_radiance(content: bytes) -> np.ndarray:
-    """Radiance, float32, shape (height, width, 3), linear RGB.
-
-    Raises
-    ------
-    PictureFault
-        When it is no such picture, or not whole.
-    """
+    """Radiance, float32, shape (height, width, 3), linear RGB; a `PictureFault` where it is no such picture, or not whole."""
     header = _HEADER.match(content, 0, _LONGEST_HEADER)
     if header is None or header[1][1:] == header[3][1:]:
         raise PictureFault(

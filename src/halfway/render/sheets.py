@@ -144,12 +144,7 @@ def _turntable(
 
 
 def _write_animation(
-    path: Path,
-    rows: Shots,
-    labels: Sequence[str],
-    fps: float,
-    exposure: float,
-    work: Work,
+    path: Path, rows: Shots, labels: Sequence[str], fps: float, exposure: float, work: Work
 ) -> int:
     """Write an animation whose frames show one of each row, side by side under ``labels``; gives their number."""
     columns = list(zip(*rows, strict=True))
@@ -165,12 +160,7 @@ def _write_animation(
 
 
 def _write_sheet(
-    path: Path,
-    rows: Shots,
-    labels: Sequence[str],
-    in_strip: bool,
-    exposure: float,
-    work: Work,
+    path: Path, rows: Shots, labels: Sequence[str], in_strip: bool, exposure: float, work: Work
 ) -> int:
     """Write one picture of all, row by row, or, of one row, as a sheet about as wide as high; gives how many it is made of."""
     shots = [shot for row in rows for shot in row]

@@ -18,7 +18,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from .mesh import Mesh, joined, sheet
+from .mesh import Mesh, joined, sheet, unit
 
 Curve: TypeAlias = Callable[[np.ndarray, np.ndarray], np.ndarray]
 
@@ -86,7 +86,7 @@ def _revolve(profile: np.ndarray, t: np.ndarray) -> tuple[np.ndarray, np.ndarray
     # The tangent around is r dc: without the r, the normal exists at the poles too.
     around = _stack(dc[:, 0], dc[:, 1], np.zeros((1, 1)))
     # Every profile runs with the outside on its left, seen with r to the right and z up.
-    return positions, _unit(np.cross(along, around))
+    return positions, unit(np.cross(along, around))
 
 
 def _turn(t: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -117,7 +117,7 @@ def _sweep(rows: np.ndarray, t: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     positions = np.concatenate([_patch(net, s, t, bezier, bezier) for net, s in nets], axis=1)
     around = np.concatenate([_patch(net, s, t, tangent, bezier) for net, s in nets], axis=1)
     along = np.concatenate([_patch(net, s, t, bezier, tangent) for net, s in nets], axis=1)
-    return positions, _unit(np.cross(along, around))
+    return positions, unit(np.cross(along, around))
 
 
 def _patch(
@@ -143,7 +143,3 @@ def tangent(control: np.ndarray, t: np.ndarray) -> np.ndarray:
 
 def _stack(*parts: np.ndarray) -> np.ndarray:
     return np.stack(np.broadcast_arrays(*parts), axis=-1)
-
-
-def _unit(v: np.ndarray) -> np.ndarray:
-    return v / np.linalg.norm(v, axis=-1, keepdims=True)

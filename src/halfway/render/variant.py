@@ -102,13 +102,7 @@ def register(device: Device = "auto") -> None:
 
 
 def require_tables(variant: str) -> None:
-    """Refuse a variant in which a measured table cannot be looked up.
-
-    Raises
-    ------
-    RenderError
-        Says which variants can, and what they need.
-    """
+    """Refuse a variant in which a measured table cannot be looked up, and say which can."""
     if not compiles(variant):
         raise RenderError(
             f"the Mitsuba variant {variant} cannot look up tables: expected one that compiles, such as {VARIANTS['cpu']}, "

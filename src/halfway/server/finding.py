@@ -62,12 +62,7 @@ def found_view(control: Control, like: Recipe, wanted: Wanted) -> FoundView:
 
 def _found(control: Control, wishes: Wishes, like: Recipe, wanted: Wanted) -> Recipe:
     return control.find(
-        wishes,
-        like=like,
-        blend=like.blend,
-        clamp=True,
-        draft=wanted.draft,
-        release=wanted.release,
+        wishes, like=like, blend=like.blend, clamp=True, draft=wanted.draft, release=wanted.release
     )
 
 

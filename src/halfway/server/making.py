@@ -58,13 +58,7 @@ class Once(Generic[T]):
         self._future: Future[T] | None = None
 
     def get(self, patience: float | None) -> T:
-        """The value, within so many seconds (None: however long it takes).
-
-        Raises
-        ------
-        NotYetError
-            When it takes longer.
-        """
+        """The value, within so many seconds (None: however long it takes), or a `NotYetError`."""
         with self._lock:
             future = self._future
             if future is None or (future.done() and future.exception() is not None):

@@ -17,11 +17,7 @@ PATIENCE = 0.5
 
 
 def serve(
-    library: Library,
-    *,
-    port: int = PORT,
-    open_browser: bool = True,
-    work: Work = HERE,
+    library: Library, *, port: int = PORT, open_browser: bool = True, work: Work = HERE
 ) -> None:
     """Show ``library`` in the browser; returns when interrupted.
 

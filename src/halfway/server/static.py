@@ -66,12 +66,7 @@ class Exported(NamedTuple):
 
 
 def export(
-    library: Library,
-    folder: Path,
-    page: Page,
-    *,
-    force: bool = False,
-    work: Work = HERE,
+    library: Library, folder: Path, page: Page, *, force: bool = False, work: Work = HERE
 ) -> Exported:
     """Write the explorer of ``library`` into ``folder``, in place of an earlier one.
 

@@ -47,13 +47,7 @@ def offered(grid: Grid) -> list[str]:
 
 
 def written(table: TabularBrdf, format: str, *, origin: str = "") -> Taken:
-    """The file of a table in one of the formats.
-
-    Raises
-    ------
-    OutputError
-        When there is no such format, or it cannot hold the table.
-    """
+    """The file of a table in one of the formats; an `OutputError` where there is no such format, or it cannot hold the table."""
     if format not in SUFFIXES:
         raise OutputError(f"{format!r} is no format to export: expected {', '.join(SUFFIXES)}.")
     if format == "merl":
@@ -67,13 +61,7 @@ def written(table: TabularBrdf, format: str, *, origin: str = "") -> Taken:
 
 
 def read(name: str, content: bytes) -> Brdf:
-    """The BRDF in a file called ``name``.
-
-    Raises
-    ------
-    FormatError
-        When it is none, or is damaged.
-    """
+    """The BRDF in a file called ``name``; a `FormatError` where it is none, or is damaged."""
     with TemporaryDirectory(prefix="halfway-") as folder:
         path = Path(folder) / name
         path.write_bytes(content)

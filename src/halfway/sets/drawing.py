@@ -100,10 +100,7 @@ class Drawing:
 
     @classmethod
     def of(
-        cls,
-        space: Space,
-        materials: Int[np.ndarray, " n_materials"],
-        squares: Squares,
+        cls, space: Space, materials: Int[np.ndarray, " n_materials"], squares: Squares
     ) -> "Drawing":
         """Over these materials, in an order that says which are cut together where they are many.
 

@@ -10,7 +10,8 @@ SET/
 
 import json
 
-from ..export import Written, write_tables
+from ..batch import Written
+from ..export import write_tables
 from ..locations import Location
 from ..recipes import file_stem
 from ..tasks import HERE, Work

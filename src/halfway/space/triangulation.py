@@ -91,7 +91,7 @@ class Triangulation:
         best = int(barycentric.min(axis=1).argmax())
         if barycentric[best].min() < -INSIDE:
             raise OutsideHullError(outside_message(len(self.points)))
-        return self._scatter(best, barycentric[best])
+        return on_vertices(self.simplices[best], barycentric[best], len(self.points))
 
     def way(self, start: int, stop: int) -> Way:
         """The weights along the straight line from point ``start`` to point ``stop``, both ends exact."""
@@ -120,20 +120,25 @@ class Triangulation:
                 t = float(leave[i])
             if t >= 1 - INSIDE:
                 return crossings
-            crossings.append((t, self._scatter(i, (1 - t) * at_p[i] + t * at_q[i])))
+            barycentric = (1 - t) * at_p[i] + t * at_q[i]
+            crossings.append((t, on_vertices(self.simplices[i], barycentric, len(self.points))))
 
     def _barycentric(
         self, x: Float64[np.ndarray, " k"]
     ) -> Float64[np.ndarray, "n_simplices n_vertices"]:
         return self._inverses @ np.append((x - self.origin) @ self.basis, 1.0)
 
-    def _scatter(
-        self, simplex: int, barycentric: Float64[np.ndarray, " n_vertices"]
-    ) -> Float64[np.ndarray, " n_points"]:
-        positive = np.where(barycentric > INSIDE, barycentric, 0.0)
-        weights = np.zeros(len(self.points))
-        weights[self.simplices[simplex]] = positive / positive.sum()
-        return weights
+
+def on_vertices(
+    vertices: Int[np.ndarray, " n_vertices"],
+    barycentric: Float64[np.ndarray, " n_vertices"],
+    n_points: int,
+) -> Float64[np.ndarray, " n_points"]:
+    """Barycentric weights of the vertices of a simplex as weights of all points, without what rounding leaves below 0."""
+    positive = np.where(barycentric > INSIDE, barycentric, 0.0)
+    weights = np.zeros(n_points)
+    weights[vertices] = positive / positive.sum()
+    return weights
 
 
 def outside_message(n: int) -> str:

@@ -26,7 +26,7 @@ from jaxtyping import Float64, Int
 
 from .._types import Points
 from ..errors import OutsideHullError
-from .triangulation import INSIDE, affine_frame, outside_message, representatives
+from .triangulation import INSIDE, affine_frame, on_vertices, outside_message, representatives
 from .way import Way
 
 PIVOT = 1e-7
@@ -67,13 +67,7 @@ class DelaunayWalk:
         return np.zeros((0, self.n_dimensions + 1), np.intp)
 
     def weights(self, x: Float64[np.ndarray, " k"]) -> Float64[np.ndarray, " n_points"]:
-        """Barycentric weights of ``x`` over all points.
-
-        Raises
-        ------
-        OutsideHullError
-            When ``x`` is not in the hull.
-        """
+        """Barycentric weights of ``x`` over all points; raises as `Triangulation.weights` does."""
         target = self._flat(x)
         # About the target, where the heights of what matters are small numbers.
         costs = np.square(self._lifted - target[:, None]).sum(axis=0)
@@ -83,7 +77,7 @@ class DelaunayWalk:
         vertices = _first_basis(self._lifted, order)
         # Least squares: where the points are nearly flat there are fewer vertices than equations.
         barycentric, *_ = np.linalg.lstsq(self._lifted[:, vertices], target)
-        return self._scatter(vertices, barycentric)
+        return on_vertices(self._kept[vertices], barycentric, len(self.points))
 
     def way(self, start: int, stop: int) -> Way:
         """The weights along the straight line from point ``start`` to point ``stop``, both ends exact."""
@@ -112,7 +106,8 @@ class DelaunayWalk:
             here = max(float(zero.min()), t)
             if here > t:
                 t = here
-                weights = self._scatter(vertices, (1 - t) * at_p + t * at_q)
+                barycentric = (1 - t) * at_p + t * at_q
+                weights = on_vertices(self._kept[vertices], barycentric, len(self.points))
                 crossings.append((t, weights))
             entering = self._beyond(vertices, leaving, inverse)
             if entering is None:
@@ -151,14 +146,6 @@ class DelaunayWalk:
 
     def _flat(self, x: Float64[np.ndarray, " k"]) -> Float64[np.ndarray, " d_1"]:
         return np.append((x - self._origin) @ self._basis, 1.0)
-
-    def _scatter(
-        self, vertices: Int[np.ndarray, " n_chosen"], barycentric: Float64[np.ndarray, " n_chosen"]
-    ) -> Float64[np.ndarray, " n_points"]:
-        positive = np.where(barycentric > INSIDE, barycentric, 0.0)
-        weights = np.zeros(len(self.points))
-        weights[self._kept[vertices]] = positive / positive.sum()
-        return weights
 
 
 def _cheapest(

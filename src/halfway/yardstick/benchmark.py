@@ -15,11 +15,11 @@ from ..library import Library, ProceduralLibrary
 from ..models import builtin
 from ..recipes import Blend
 from ..tasks import HERE, Work
+from . import neural_fit
 from .data import gridded, part
 from .journal import Journal
-from .neural_fit import neural_fits
 from .people import agreements
-from .reconstruction import RECONSTRUCTIONS, Reconstruction, beside, fitted
+from .reconstruction import RECONSTRUCTIONS, Reconstruction, beside, fit_each, fitted
 from .results import Benchmark, Result
 from .scores import Judge, Known, Scores
 from .sparse import N_DRAWS, RECOVERIES, RecoveryMethod
@@ -159,7 +159,7 @@ def _fits(
     if quick:
         skipped[NETWORK_FIT] = "takes too long for the quick benchmark"
     else:
-        methods[NETWORK_FIT] = neural_fits(work)
+        methods[NETWORK_FIT] = fit_each(neural_fit.fitted, neural_fit.N_NUMBERS, "NBRDF", work)
     return methods, skipped
 
 
@@ -205,12 +205,7 @@ def _recovered(
 
 
 def _draw(
-    run: _Run,
-    train: Library,
-    test: Library,
-    method: RecoveryMethod,
-    n: int,
-    draw: tuple[int, int],
+    run: _Run, train: Library, test: Library, method: RecoveryMethod, n: int, draw: tuple[int, int]
 ) -> list[Scores]:
     seed, i = draw
     sampling = method.method(train, n, np.random.default_rng([seed, n, i]))

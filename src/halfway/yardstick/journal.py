@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from ..errors import HalfwayError
-from ..files import replacing
+from ..files import write_text
 from ..locations import append_text
 from ..tasks import Work
 
@@ -34,13 +34,7 @@ class Journal:
 
     @classmethod
     def open(cls, path: Path | None, of: Mapping[str, Any]) -> "Journal":
-        """Of a run; with a path, what an earlier run noted there counts as measured.
-
-        Raises
-        ------
-        HalfwayError
-            When the earlier run measured something else.
-        """
+        """Of a run; with a path, what an earlier run noted there counts as measured; a `HalfwayError` where it measured something else."""
         if path is None:
             return cls(None, {})
         head, *lines = noted = list(_whole_lines(path)) or [{"of": of}]
@@ -75,8 +69,7 @@ class Journal:
         known = ({"unit": unit, "scores": scores} for unit, scores in self._known.items())
         lines = [_line(**each, seconds=self.seconds) for each in ({"of": of}, *known)]
         if self._path:
-            with replacing(self._path) as temporary:
-                temporary.write_text("".join(lines), encoding="utf-8")
+            write_text(self._path, "".join(lines))
 
 
 def _whole_lines(path: Path) -> Iterator[Any]:

@@ -6,18 +6,14 @@ Theirs has 800,000 samples of a table of 1.4 million cells and steps of one size
 D. P. Kingma, J. Ba, "Adam: A Method for Stochastic Optimization", ICLR 2015.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from itertools import islice
 
 import numpy as np
-from jaxtyping import Float32
 
 from ..brdf import TabularBrdf, quadrature
 from ..formats import NeuralBrdf
-from ..library import Library
-from ..tasks import Work
-from .data import Values
-from .reconstruction import Reconstruction
+from ..halfdiff import from_polar
 
 SHAPES = ((6, 21), (21,), (21, 21), (21,), (21, 3), (3,))
 N_NUMBERS = sum(int(np.prod(shape)) for shape in SHAPES)
@@ -31,24 +27,10 @@ _TINY = 1e-8
 Layers = list[np.ndarray]
 
 
-def neural_fits(work: Work) -> Reconstruction:
-    """As a method of `reconstruct`: a network for each material, which sees all of it."""
-
-    def method(train: Library, test: Library, ks: Sequence[int]) -> Iterator[tuple[int, Values]]:
-        del train, ks
-
-        def one(name: str) -> Float32[np.ndarray, "3 p"]:
-            return fitted(test.brdf(name)).sample_rows(test.grid, slice(None)).reshape(3, -1)
-
-        yield N_NUMBERS, np.stack(list(work.run(one, test.names, label="Fits of NBRDF")), axis=1)
-
-    return method
-
-
-def fitted(table: TabularBrdf, *, seed: int = 0, n_steps: int = N_STEPS) -> NeuralBrdf:
-    """The network that stands for a table best, of those that start with ``seed``."""
+def fitted(table: TabularBrdf, *, n_steps: int = N_STEPS) -> NeuralBrdf:
+    """The network that stands for a table best, of those with one start."""
     x, f, cos_i = _samples(table)
-    rng = np.random.default_rng(seed)
+    rng = np.random.default_rng(0)
     layers = _start(rng, f)
     slope, square = ([np.zeros_like(layer) for layer in layers] for _ in range(2))
     for i, chosen in enumerate(islice(_batches(rng, len(x)), n_steps), 1):
@@ -70,9 +52,8 @@ def _samples(table: TabularBrdf) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     theta_h, _, theta_d, phi_d = (
         np.broadcast_to(angle, grid.shape).ravel()[known] for angle in grid.centres()
     )
-    sin_d = np.sin(theta_d)
-    h = (np.sin(theta_h), np.zeros_like(theta_h), np.cos(theta_h))
-    x = np.stack([*h, sin_d * np.cos(phi_d), sin_d * np.sin(phi_d), np.cos(theta_d)], axis=1)
+    h, d = from_polar(theta_h, np.zeros_like(theta_h)), from_polar(theta_d, phi_d)
+    x = np.concatenate([h, d], axis=1)
     cos_i = np.broadcast_to(quadrature.comparison_cells(grid).cos_i, grid.shape).ravel()[known]
     return x.astype(np.float32), values[:, known].T.copy(), cos_i.astype(np.float32)[:, None]
 

@@ -13,15 +13,14 @@ Source: C. Zheng, R. Zheng, R. Wang, S. Zhao, H. Bao, "A Compact Representation 
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from importlib import import_module
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from jaxtyping import Float32, Float64
 
 from .._types import Angle, Directions
-from ..errors import FormatError, HalfwayError
+from ..errors import FormatError
+from ..formats import hdf5
 from ..halfdiff import Grid, to_half_diff
 from ..library import Library
 from ..recovery import plan
@@ -52,19 +51,11 @@ class NeuralProcess:
         ------
         FormatError
             When the file does not hold them.
-        HalfwayError
-            Where the package h5py is not installed.
         """
         try:
-            h5py = import_module("h5py")
-        except ImportError:
-            raise HalfwayError(
-                "a neural process needs the package h5py, which is not installed: pip install h5py."
-            ) from None
-        try:
-            with h5py.File(path) as file:
-                return cls(_layers(file["encoder"]), _layers(file["decoder"]))
-        except (OSError, KeyError) as error:
+            root = hdf5.read_hdf5(path.read_bytes())
+            return cls(_layers(root["encoder"]), _layers(root["decoder"]))
+        except (OSError, hdf5.Hdf5Error) as error:
             raise FormatError(
                 f"{path} holds no neural process ({error}): expected the weights of Zheng et al. 2021 (HDF5)."
             ) from None
@@ -138,12 +129,11 @@ class NeuralProcess:
         return Sampling(wi, wo, complete)
 
 
-def _layers(group: Any) -> list[Layer]:
+def _layers(group: hdf5.Hdf5Object) -> list[Layer]:
     """In the order in which Keras made them: dense, dense_1, dense_2 ..."""
-    names = sorted(group, key=lambda name: int(name.rpartition("_")[2]) if "_" in name else 0)
-    return [
-        (np.asarray(group[name]["kernel:0"]), np.asarray(group[name]["bias:0"])) for name in names
-    ]
+    names = sorted(group.names, key=lambda name: int(name.rpartition("_")[2]) if "_" in name else 0)
+    layers = (group[name] for name in names)
+    return [(layer["kernel:0"].array(), layer["bias:0"].array()) for layer in layers]
 
 
 def _relu(x: Features, layer: Layer) -> Features:

@@ -6,7 +6,7 @@ from importlib.resources import files
 from pathlib import Path
 
 from ..export import html_page, markdown_table
-from ..files import replacing
+from ..files import write_text
 from .plots import curves
 from .results import Benchmark, Result
 from .scores import MEASURES
@@ -31,8 +31,7 @@ def write_page(folder: Path, measured: Benchmark) -> None:
         "benchmark.html": html_page(TITLE, text),
     }
     for name, content in documents.items():
-        with replacing(folder / name) as temporary:
-            temporary.write_text(content, encoding="utf-8")
+        write_text(folder / name, content)
 
 
 def _sections(measured: Benchmark) -> Iterator[str]:

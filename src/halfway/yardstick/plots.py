@@ -22,20 +22,17 @@ def curves(results: Sequence[Result], measures: Sequence[str], setting: str) -> 
     return "data:image/svg+xml;base64," + base64.b64encode(file.getvalue()).decode()
 
 
+@figures.styled
 def figure(results: Sequence[Result], measures: Sequence[str], setting: str) -> Any:
     """One plot for each measure, a line for each method (a matplotlib figure)."""
-    import matplotlib as mpl
-    from matplotlib.figure import Figure
-
-    with mpl.rc_context(figures.STYLE):
-        figure = Figure(figsize=(10, 4.6), layout="constrained")
-        axes = figure.subplots(1, len(measures), squeeze=False)[0]
-        for ax, measure in zip(axes, measures, strict=True):
-            _draw(ax, results, measure)
-            ax.set(xlabel=setting, title=MEASURES[measure].label.partition(",")[0])
-            _scale(ax, sorted(_shared(results)), logarithmic=not MEASURES[measure].larger_is_better)
-        handles, labels = axes[0].get_legend_handles_labels()
-        figure.legend(handles, labels, loc="outside lower center", ncols=3, fontsize=9)
+    figure = figures.empty((10, 4.6))
+    axes = figure.subplots(1, len(measures), squeeze=False)[0]
+    for ax, measure in zip(axes, measures, strict=True):
+        _draw(ax, results, measure)
+        ax.set(xlabel=setting, title=MEASURES[measure].label.partition(",")[0])
+        _scale(ax, sorted(_shared(results)), logarithmic=not MEASURES[measure].larger_is_better)
+    handles, labels = axes[0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside lower center", ncols=3, fontsize=9)
     return figure
 
 

@@ -12,12 +12,11 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import partial
 
 import numpy as np
-from jaxtyping import Float, Float32, Float64
+from jaxtyping import Float, Float32
 from threadpoolctl import threadpool_limits
 
-from ..brdf import metrics, quadrature
+from ..brdf import Brdf, TabularBrdf, metrics, quadrature
 from ..fit import MODELS, fit
-from ..halfdiff import Grid
 from ..library import Library
 from ..tasks import Work
 from .data import Values, gridded, part, values_of
@@ -43,7 +42,7 @@ class Root:
     """sqrt(f), cells weighed by solid angle and cosines: as `halfway.components.MappedRows` has them for the blend `root`."""
 
     def __init__(self, train: Library) -> None:
-        self._scale = np.sqrt(_cell_weights(train.grid)).astype(np.float32)
+        self._scale = np.sqrt(quadrature.light_weights(train.grid)).astype(np.float32)
 
     def to(self, f: Mapped) -> Mapped:
         return np.sqrt(f) * self._scale
@@ -137,20 +136,27 @@ def beside(other: Library, n_numbers: int) -> Reconstruction:
     return method
 
 
-def fitted(model: str, work: Work) -> Reconstruction:
-    """An analytic model of `halfway.fit`, fitted to each material."""
+def fit_each(
+    of_table: Callable[[TabularBrdf], Brdf], n_numbers: int, label: str, work: Work
+) -> Reconstruction:
+    """What is fitted to each material, of which it sees all."""
 
     def method(train: Library, test: Library, ks: Sequence[int]) -> Iterator[tuple[int, Values]]:
         del train, ks
 
         def one(name: str) -> Float32[np.ndarray, "3 p"]:
-            found = fit(test.brdf(name), model, name=name).model
-            return found.sample_rows(test.grid, slice(None)).reshape(3, -1)
+            return of_table(test.brdf(name)).sample_rows(test.grid, slice(None)).reshape(3, -1)
 
-        rows = list(work.run(one, test.names, label=f"Fits of {model}"))
-        yield len(MODELS[model].neutral()), np.stack(rows, axis=1)
+        rows = list(work.run(one, test.names, label=f"Fits of {label}"))
+        yield n_numbers, np.stack(rows, axis=1)
 
     return method
+
+
+def fitted(model: str, work: Work) -> Reconstruction:
+    """An analytic model of `halfway.fit`, fitted to each material."""
+    n_numbers = len(MODELS[model].neutral())
+    return fit_each(lambda table: fit(table, model).model, n_numbers, model, work)
 
 
 RECONSTRUCTIONS: Mapping[str, Reconstruction] = {
@@ -161,12 +167,6 @@ RECONSTRUCTIONS: Mapping[str, Reconstruction] = {
     "nearest mix": convex_mix,
 }
 """What learns from the training materials."""
-
-
-def _cell_weights(grid: Grid) -> Float64[np.ndarray, " p"]:
-    cells = quadrature.comparison_cells(grid)
-    weights = np.where(grid.mask(), cells.solid_angle * cells.cos_i * cells.cos_o, 0).ravel()
-    return weights / weights.sum()
 
 
 def _flat(values: Mapped, known: np.ndarray) -> Float32[np.ndarray, "N n"]:

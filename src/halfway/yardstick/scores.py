@@ -23,14 +23,7 @@ from .._types import Mask, Table
 from ..brdf import TabularBrdf, difference, metrics, quadrature
 from ..colour import to_srgb
 from ..halfdiff import Grid
-from ..look import (
-    JUDGING_SCENE,
-    PACING_SCENE,
-    FilledSphere,
-    appearance,
-    ciede2000_difference,
-    flip,
-)
+from ..look import JUDGING_SCENE, PACING_SCENE, FilledSphere, appearance, ciede2000_difference, flip
 
 MOST_PSNR = 99.0
 """Of pictures that are the same."""
