@@ -102,8 +102,8 @@ mix "gold-paint=0.7, teflon=0.3" -o full.binary
 mix abc.brdflib "gold-paint=0.7, teflon=0.3" -o weights.binary
 mix abc.brdflib "gold-paint=0.7, teflon=0.3" -o weights.bsdf
 mix anchored/recipes.json:2 -o third.binary
-mix abc.brdflib --point=-1.5,0.2,0.05,0.1,0.05,0.02 -o inside.binary
-mix abc.brdflib --point=-1e6,0,0,2,0,0 --clamp -o nearest.binary
+mix abc.brdflib --point=0,0,0,0,0.17,0.134,0.117 -o inside.binary
+mix abc.brdflib --point=-1e6,0,0,0,2,0,0 --clamp -o nearest.binary
 
 convert abc.brdflib:teflon teflon.binary
 convert abc.brdflib:teflon teflon.bsdf
