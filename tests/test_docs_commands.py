@@ -42,6 +42,7 @@ NOT_RUN = {
     r"^halfway .*--pairs": "takes minutes (tested in test_cli)",
     r"^halfway .*--for pbrt-v2": "takes the database's grid alone (tested in test_export_scenes)",
     r"^halfway library build builtin:synthetic-2000": "takes ten seconds (another page builds 200 of them)",
+    r"^halfway export .*--for blender": "fits sixteen models (tested in test_export_blender)",
     r"^halfway .*--turntable": "sets up a scene for each side (tested in test_render_pictures)",
     r"\.mp4": "needs an extra",
 }
