@@ -63,7 +63,7 @@ def sample(
     Examples
     --------
     >>> from halfway.sets import sample
-    >>> new = sample("builtin:synthetic-15", 5, splits={"train": 80, "test": 20})
+    >>> new = sample("builtin:synthetic-8", 3, splits={"train": 80, "test": 20})
     >>> parents = {split: set(names) for split, names in new.splits.items()}
     >>> parents["train"] & parents["test"]
     set()
