@@ -97,14 +97,11 @@ def _strength(lightness: Plane, kernel: Kernel) -> Plane:
 
 
 def _convolved(plane: Plane, kernel: Kernel) -> Plane:
-    from scipy import fft  # its signal.fftconvolve does the same, and takes a second to load
-
+    # As scipy.signal.fftconvolve does, which takes a second to load; what wraps around is cut off.
     n = len(kernel)
     padded = np.pad(plane, n // 2, mode="edge")
-    shape = [fft.next_fast_len(size + n - 1, real=True) for size in padded.shape]
-    product = fft.rfft2(padded, shape) * fft.rfft2(kernel[::-1, ::-1], shape)
-    height, width = plane.shape
-    return fft.irfft2(product, shape)[n - 1 : n - 1 + height, n - 1 : n - 1 + width]
+    product = np.fft.rfft2(padded) * np.fft.rfft2(kernel[::-1, ::-1], padded.shape)
+    return np.fft.irfft2(product, padded.shape)[n - 1 :, n - 1 :]
 
 
 @lru_cache(maxsize=1)
