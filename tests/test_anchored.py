@@ -108,10 +108,14 @@ def test_the_nearest_point_of_a_hull(x):
     assert_allclose(nearest_in_hull(square, x) @ square, np.clip(x, 0, 2), atol=1e-9)
 
 
+@pytest.fixture(scope="module")
+def route(space):
+    return Route.through(space, ["material-0", "material-7"])
+
+
 @given(st.floats(0, 1))
-def test_every_coordinate_of_a_mix_is_on_the_straight_line(space, t):
+def test_every_coordinate_of_a_mix_is_on_the_straight_line(space, route, t):
     """The body colours among them: no detour through a foreign colour."""
-    route = Route.through(space, ["material-0", "material-7"])
     weights = route.at(np.array([t]))[:, 0]
     assert_allclose(weights[0], weights[1])
     wanted = (1 - t) * space.points[0] + t * space.points[7]

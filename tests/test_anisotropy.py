@@ -175,7 +175,7 @@ def test_a_mix_of_both_kinds_is_the_weighted_mean():
 
 
 def _abc(grid):
-    few = dict(list(builtin("merl-abc").models.items())[::9])
+    few = dict(list(builtin("merl-abc").models.items())[::11])
     return ProceduralLibrary("abc", few, grid=grid)
 
 

@@ -150,7 +150,7 @@ def test_what_no_body_has_is_refused():
 
 def test_the_command_line_tells_what_it_did(tmp_path, monkeypatch, capsys):
     for name in THREE.names:
-        write_brdf(tmp_path / f"{name}.binary", glossy((0.3, 0.2, 0.1), 0.0, 0.1, Grid.merl()))
+        write_brdf(tmp_path / f"{name}.binary", glossy((0.3, 0.2, 0.1), 0.0, 0.1))
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
     monkeypatch.chdir(tmp_path)
     run(monkeypatch, "library", "build", *map("{}.binary".format, THREE.names), "-o", "a.brdflib")

@@ -52,6 +52,16 @@ def test_tables_pictures_and_fits_are_the_materials(written):
         assert material["fit"]["model"] == document["model"] == "cycles"
 
 
+def test_the_command_writes_the_space_of_a_library_into_a_folder(run, lib):
+    stops = ["material-0", "material-1"]
+    words = [f"{lib}:{name}" for name in stops]
+    code, _, talk = run("export", *words, "--for", "blender", "-o", "space")
+    assert code == 0, talk
+    assert talk.startswith("space: tiny.brdfspace\n")
+    document = json.loads(zipfile.ZipFile("space/tiny.brdfspace").read("space.json"))
+    assert document["stops"] == stops
+
+
 def test_what_lies_in_no_space_is_refused(tmp_path):
     mixed = NamedBrdf.mixed(GLOSSY, Recipe.of(GLOSSY, {"m0": 0.5, "m1": 0.5}))
     with pytest.raises(OutputError, match="mix is no material of a library: expected materials"):

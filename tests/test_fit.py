@@ -193,6 +193,14 @@ TRUTHS = [
 ]
 
 
+@pytest.fixture
+def one_search(monkeypatch):
+    """Where a model's own table is, the best start leads there: a search from others as well can but be better."""
+    for kind in MODELS.values():
+        monkeypatch.setattr(kind, "n_searches", 1)
+
+
+@pytest.mark.usefixtures("one_search")
 @pytest.mark.parametrize("truth", TRUTHS, ids=lambda m: f"{type(m).__name__}-{m.base_color[0]}")
 def test_a_table_of_a_model_gives_the_model_back(truth):
     (name,) = (name for name, kind in MODELS.items() if type(truth) is kind)
@@ -226,6 +234,7 @@ BRUSHED = [
 BRUSHED_GRID = Grid.anisotropic(40, 36, 12, 12, period=np.pi)
 
 
+@pytest.mark.usefixtures("one_search")
 @pytest.mark.parametrize("truth", BRUSHED, ids=lambda m: type(m).__name__)
 def test_a_table_of_an_anisotropic_model_gives_its_anisotropy_and_rotation_back(truth):
     (name,) = (name for name, kind in MODELS.items() if isinstance(truth, kind))

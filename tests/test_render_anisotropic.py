@@ -1,5 +1,7 @@
 """Anisotropic tables as Mitsuba BSDFs, against Mitsuba's own rough conductor, of which they are made."""
 
+from functools import cache
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
@@ -22,6 +24,11 @@ def in_mitsuba(brdf: TabularBrdf, turn_degrees: float = 0.0) -> TableBsdf:
     props = mi.Properties()
     props["turn"] = turn_degrees
     return TableBsdf(props, brdf)
+
+
+@cache
+def conductor(alphas: tuple[float, float], turn_degrees: float) -> TableBsdf:
+    return in_mitsuba(anisotropic(*alphas), turn_degrees)
 
 
 def direction(view: tuple[float, float]) -> np.ndarray:
@@ -87,7 +94,7 @@ def test_values_in_a_dict_make_an_anisotropic_table():
 @pytest.mark.parametrize("alphas", ROUGHNESSES, ids=str)
 def test_turning_the_material_turns_light_and_viewer_with_it(alphas):
     wi, wo = pairs(2_000)
-    still, turned = (in_mitsuba(anisotropic(*alphas), turn) for turn in (0.0, 37.0))
+    still, turned = (conductor(alphas, turn) for turn in (0.0, 37.0))
     expected = f_r(still, wi, wo)
     found = f_r(turned, about_normal(wi, 37), about_normal(wo, 37))
     assert_allclose(found, expected, rtol=1e-3, atol=1e-4 * expected.mean())
@@ -100,7 +107,7 @@ def test_turning_the_material_turns_light_and_viewer_with_it(alphas):
 def test_samples_follow_their_density(alphas, view, turn, tmp_path, monkeypatch):
     """Mitsuba's chi-square test."""
     monkeypatch.chdir(tmp_path)  # where a failing test leaves its density
-    bsdf, ctx = in_mitsuba(anisotropic(*alphas), turn), mi.BSDFContext()
+    bsdf, ctx = conductor(alphas, turn), mi.BSDFContext()
 
     def sample(u):
         bs, _ = bsdf.sample(ctx, seen_from(view, dr.width(u)), u[0], mi.Point2f(u[1], u[2]))
@@ -126,7 +133,7 @@ def test_weights_vary_little_and_their_mean_is_the_albedo(alphas, view):
     n = 100_000
     sampler.seed(7, n)
     args = seen_from(view, n), sampler.next_1d(), sampler.next_2d()
-    _, weight = in_mitsuba(brdf).sample(mi.BSDFContext(), *args)
+    _, weight = conductor(alphas, 0.0).sample(mi.BSDFContext(), *args)
     weight = np.array(weight).T
     theta, phi = view
 
@@ -163,10 +170,10 @@ def test_a_lit_sphere_of_a_bsdf_file_in_stock_mitsuba_is_that_of_the_model(alpha
 def test_a_plane_in_the_studio_is_that_of_the_model_turned_with_it(alphas, turn):
     renderer = {"size": 32, "spp": 1024}
     expected = plane(mi.load_dict(plugin(*alphas)), turn, **renderer)
-    found = plane(in_mitsuba(anisotropic(*alphas), turn), 0.0, **renderer)
+    found = plane(conductor(alphas, turn), 0.0, **renderer)
     assert psnr(found, expected) > 40
     if turn:
-        assert psnr(plane(in_mitsuba(anisotropic(*alphas)), 0.0, **renderer), expected) < 40
+        assert psnr(plane(conductor(alphas, 0.0), 0.0, **renderer), expected) < 40
 
 
 def plane(bsdf, turn_degrees: float, *, size: int, spp: int) -> np.ndarray:

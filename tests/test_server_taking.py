@@ -11,7 +11,7 @@ from fastapi.testclient import TestClient
 from served import HOST, client_of, recipe_of
 
 from halfway.formats import write_merl
-from halfway.formats.rgl_writer import Resolution
+from halfway.formats.rgl_writer import RESOLUTIONS, Resolution
 from halfway.library import ProceduralLibrary
 from halfway.recipes import Recipe, mix
 from halfway.server import create_app, taking
@@ -72,7 +72,10 @@ def test_a_fit_says_how_far_off_it_is(client: TestClient, monkeypatch: pytest.Mo
     assert unquote(answer.headers["halfway-summary"]) == "off by 3.9% ±"
 
 
-def test_a_scene_is_a_zip_of_its_folder(client: TestClient) -> None:
+def test_a_scene_is_a_zip_of_its_folder(
+    client: TestClient, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("halfway.formats.rgl_writer.RESOLUTIONS", RESOLUTIONS[:1])
     answer = client.post(
         "/api/export/pbrt-v4", json={"library": "small", "weights": {"material-1": 1}}
     )

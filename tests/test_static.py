@@ -35,8 +35,8 @@ def contents(folder: Path) -> dict[str, bytes]:
 
 @pytest.fixture(scope="module")
 def few(small_library: Library) -> Library:
-    """As few as have a space of six dimensions."""
-    return Subset(small_library, small_library.names[:7])
+    """As few as have several simplices in each channel of the paper's space."""
+    return Subset(small_library, small_library.names[:6])
 
 
 @pytest.fixture(scope="module")
@@ -49,11 +49,13 @@ def exported(few: Library, tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
-def test_the_same_library_makes_the_same_bytes(few: Library, exported: Path) -> None:
-    before = contents(exported)
-    export(few, exported, PAGE)
-    assert contents(exported) == before
-    assert [path.name for path in exported.parent.iterdir()] == ["site"]
+def test_the_same_library_makes_the_same_bytes(small_library: Library, tmp_path: Path) -> None:
+    library = Subset(small_library, small_library.names[:4])
+    export(library, tmp_path / "site", PAGE)
+    before = contents(tmp_path / "site")
+    export(library, tmp_path / "site", PAGE)
+    assert contents(tmp_path / "site") == before
+    assert [path.name for path in tmp_path.iterdir()] == ["site"]
 
 
 def test_the_page_knows_where_its_data_are_and_what_it_may_load(exported: Path) -> None:
@@ -194,7 +196,7 @@ def test_what_cannot_be_exported_is_said(words: list[str], message: str) -> None
 
 def test_tables_that_depend_on_phi_h_are_written_whole(tmp_path: Path) -> None:
     grid = Grid.anisotropic(6, 4, 3, 4, period=np.pi)
-    brushed = ProceduralLibrary("brushed", random_tables(5, grid), grid=grid)
+    brushed = ProceduralLibrary("brushed", random_tables(4, grid), grid=grid)
     export(brushed, tmp_path / "site", PAGE)
     folder = json.loads((tmp_path / "site/data/explorer.json").read_text())
     assert [axis["size"] for axis in folder["library"]["grid"]] == [6, 4, 3, 4]

@@ -8,7 +8,7 @@ from numpy.testing import assert_allclose, assert_array_equal
 from scipy.interpolate import RegularGridInterpolator
 from strategies import TINY, directions, random_tables
 
-from halfway import MERL, TabularBrdf, directional_albedo, open_library, tabulate
+from halfway import TabularBrdf, directional_albedo, open_library, tabulate
 from halfway.errors import FormatError
 from halfway.halfdiff import Grid, from_half_diff, to_half_diff
 
@@ -161,6 +161,5 @@ def test_floor_and_trilinear_agree_in_the_mean():
 
 
 def test_from_half_diff_centres_are_the_grids_directions():
-    wi, wo = from_half_diff(MERL.centres())
-    assert_allclose(np.broadcast_to(wi, (*MERL.shape, 3)), MERL.directions()[0])
-    assert_allclose(np.broadcast_to(wo, (*MERL.shape, 3)), MERL.directions()[1])
+    for each, expected in zip(from_half_diff(GRID.centres()), GRID.directions(), strict=True):
+        assert_allclose(np.broadcast_to(each, (*GRID.shape, 3)), expected)

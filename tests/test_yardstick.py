@@ -41,6 +41,11 @@ def tables(abc):
     return gridded(part(abc, abc.names[:10]), GRID)
 
 
+@pytest.fixture(scope="module")
+def judge():
+    return Judge.of(GRID)
+
+
 # Measures
 
 
@@ -67,23 +72,23 @@ def test_ssim_is_that_of_scikit_image():
     assert_allclose(ssim(a, b), expected.mean(axis=-1), atol=1e-10)
 
 
-def test_a_table_is_no_different_from_itself(tables):
-    scores = Judge.of(GRID).knowing(tables.row(0)).scores(tables.row(0))
+def test_a_table_is_no_different_from_itself(judge, tables):
+    scores = judge.knowing(tables.row(0)).scores(tables.row(0))
     assert set(scores) == set(MEASURES)
     for name, value in scores.items():
         best = {"psnr": 99.0, "ssim": 1.0}.get(name.partition(".")[0], 0.0)
         assert value == pytest.approx(best, abs=1e-9), name
 
 
-def test_what_is_negative_counts_as_0(tables):
-    known, row = Judge.of(GRID).knowing(tables.row(0)), tables.row(0)
+def test_what_is_negative_counts_as_0(judge, tables):
+    known, row = judge.knowing(tables.row(0)), tables.row(0)
     assert known.scores(-row) == known.scores(0 * row)
 
 
-def test_the_table_measures_are_those_of_the_package(tables):
+def test_the_table_measures_are_those_of_the_package(judge, tables):
     a, b = tables.brdf(tables.names[0]), tables.brdf(tables.names[1])
     truth, estimate = (x.values.reshape(3, -1) for x in (a, b))
-    scores = Judge.of(GRID).knowing(truth).scores(estimate)
+    scores = judge.knowing(truth).scores(estimate)
     assert scores["log-relative"] == difference(a, b, "log-relative").below
 
 
@@ -140,20 +145,20 @@ def test_a_mapping_goes_there_and_back(tables, mapping):
 
 
 @pytest.mark.parametrize("name", RECONSTRUCTIONS)
-def test_a_method_reconstructs_what_it_learned(tables, name):
+def test_a_method_reconstructs_what_it_learned(judge, tables, name):
     few = part(tables, tables.names[:3])
     k, values = list(RECONSTRUCTIONS[name](tables, few, [9]))[-1]
     assert k in (1, 9)
-    scores = [Judge.of(GRID).knowing(truth).scores(found) for truth, found in zip(*(np.moveaxis(x, 1, 0) for x in (values_of(few), values)), strict=True)]  # fmt: skip
+    scores = [judge.knowing(truth).scores(found) for truth, found in zip(*(np.moveaxis(x, 1, 0) for x in (values_of(few), values)), strict=True)]  # fmt: skip
     assert max(each["mean-log"] for each in scores) < 0.01
 
 
 @pytest.mark.parametrize("name", RECOVERIES)
-def test_a_method_recovers_what_it_learned_from_many_samples(tables, name):
+def test_a_method_recovers_what_it_learned_from_many_samples(judge, tables, name):
     sampling = RECOVERIES[name].method(tables, 12, np.random.default_rng(0))
     material = tables.brdf(tables.names[2])
     recovered = sampling.complete(material.eval(sampling.wi, sampling.wo))
-    known = Judge.of(GRID).knowing(tables.row(2))
+    known = judge.knowing(tables.row(2))
     scores, nothing = known.scores(recovered), known.scores(0 * tables.row(2))
     assert scores["mean-log"] < nothing["mean-log"] / 4
 
@@ -311,7 +316,7 @@ def test_what_is_no_neural_process_is_told(tmp_path):
         yardstick.NeuralProcess.read(path)
 
 
-def test_the_published_neural_process_decodes_its_own_materials(shared_data):
+def test_the_published_neural_process_decodes_its_own_materials(judge, shared_data):
     """Against another fit of the same measurements."""
     networks = yardstick.NeuralProcess.read(shared_data / "npbrdf" / "np_weights.h5")
     fits = open_library(str(shared_data / "nbrdf" / "merl_nbrdf.zip"))
@@ -320,7 +325,4 @@ def test_the_published_neural_process_decodes_its_own_materials(shared_data):
     for i, name in enumerate(few.names):
         z = np.load(latent / f"{name}_latentVector.npy")[0].ravel().astype(np.float32)
         table = TabularBrdf(networks.table(z, GRID).reshape(3, *GRID.shape), GRID)
-        assert (
-            Judge.of(GRID).knowing(few.row(i)).scores(table.values.reshape(3, -1))["mean-log"]
-            < 0.02
-        )
+        assert judge.knowing(few.row(i)).scores(table.values.reshape(3, -1))["mean-log"] < 0.02

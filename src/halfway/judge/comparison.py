@@ -21,7 +21,7 @@ def compare_spaces(
     usual = SPACES[first].usual_blend
     blends = [usual, *(blend for blend in Blend if blend is not usual)]
     for name, blend in [*((first, blend) for blend in blends), *((name, None) for name in others)]:
-        space = make_space(name, library, blend=blend, work=work)
+        space = make_space(name, library, blend=blend, looks=bench.pacing, work=work)
         measures = {"seed": seed, **evaluate(space, bench, pairs, work=work).to_json()}
         measures["blend"] = str(space.blend)
         if space.charts:

@@ -17,7 +17,8 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float64
 
-from ..brdf import Brdf, difference
+from ..brdf import Brdf, TabularBrdf, difference
+from ..colour import Lab
 from ..fit import OpenPbr
 from ..halfdiff import MERL, Grid
 from ..library import Library, ProceduralLibrary
@@ -53,14 +54,20 @@ class LadderErrors:
 def ladder_errors(ladder: Library, blend: Blend) -> LadderErrors:
     """What a blend of two rungs is off the rung in the middle."""
     mixer, operator = Mixer(ladder), SphereOperator.of(JUDGING_SCENE, ladder.grid)
+
+    def look(table: TabularBrdf) -> Lab:
+        return appearance(operator.picture(table.values.reshape(3, -1)))
+
+    rungs = [ladder.brdf(name) for name in ladder.names]
+    looks = [look(rung) for rung in rungs]
     errors: list[tuple[float, float]] = []
     for i in range(len(ladder)):
         for j in range(i + 2, len(ladder), 2):
             ends: Mapping[str, float] = {ladder.names[i]: 0.5, ladder.names[j]: 0.5}
             mixed = mixer.mix(Recipe.of(ladder, ends, blend))
-            truth = ladder.brdf(ladder.names[(i + j) // 2])
-            looks = [appearance(operator.picture(x.values.reshape(3, -1))) for x in (mixed, truth)]
-            errors.append((difference(truth, mixed).below, float(cielab_difference(*looks))))
+            middle = (i + j) // 2
+            seen = cielab_difference(look(mixed), looks[middle])
+            errors.append((difference(rungs[middle], mixed).below, float(seen)))
     log, seen = np.array(errors).T
     return LadderErrors(log, seen)
 

@@ -8,7 +8,7 @@ of each material that carries weight, and no table is mixed. Other blends mix ta
 import io
 from collections.abc import Sequence
 from dataclasses import replace
-from functools import lru_cache, partial
+from functools import partial
 
 import numpy as np
 from jaxtyping import Float32, Float64, UInt8
@@ -59,7 +59,7 @@ def recipes_png(
 
 def portrait(samples: Table, grid: Grid, scene: SphereScene = PORTRAIT_SCENE) -> Picture:
     """The picture of a table's ``samples``, shape (3, p) or (3, *grid.shape)."""
-    return _operator(scene, grid).picture(samples.reshape(3, -1))
+    return SphereOperator.of(scene, grid).picture(samples.reshape(3, -1))
 
 
 def to_png(pictures: Sequence[Picture], scene: SphereScene = PORTRAIT_SCENE) -> bytes:
@@ -86,9 +86,3 @@ def _coded(picture: Picture, scene: SphereScene) -> UInt8[np.ndarray, "size size
     covered = (scene.size / 2 + 0.5 - np.hypot(offset, offset[:, None])).clip(0, 1)
     coded[..., 3] = np.where(scene.mask(), covered, 0)
     return np.round(255 * coded).astype(np.uint8)
-
-
-# An operator takes .1 s to make and 30 MB on the MERL grid.
-@lru_cache(maxsize=2)
-def _operator(scene: SphereScene, grid: Grid) -> SphereOperator:
-    return SphereOperator.of(scene, grid)

@@ -13,8 +13,8 @@ from typing import Any
 import numpy as np
 from jaxtyping import Float, Float32, Float64, Int
 
-from ..brdf import TabularBrdf, gloss, tabulate
-from ..halfdiff import Grid
+from ..brdf import TabularBrdf, gloss
+from ..halfdiff import Corners, Grid
 from ..library import Library
 from ..recipes import Blend, Recipe, aligned_mean, with_body
 from ..tasks import HERE, Work
@@ -174,11 +174,22 @@ def _kept(library: Library, work: Work, i: int) -> Float32[np.ndarray, "3 p"]:
 
 
 def _small(library: Library, i: int) -> Float32[np.ndarray, "3 p"]:
-    table = TabularBrdf(library.row(i).reshape(3, *library.grid.shape), library.grid)
     grid = small_grid(library.grid)
-    lobes = gloss.to_lobes(np.array(tabulate(table, grid).values), grid)
+    values = np.full((3, *grid.shape), np.nan, np.float32)
+    values[:, grid.mask()] = _lookup(library.grid).blend(
+        library.row(i).reshape(3, *library.grid.shape)
+    )
+    lobes = gloss.to_lobes(values, grid)
     for row, following in zip(
         lobes[:, :-1].swapaxes(0, 1), lobes[:, 1:].swapaxes(0, 1), strict=True
     ):
         np.copyto(following, row, where=np.isnan(following))
     return np.nan_to_num(lobes.reshape(3, -1), nan=0.0)
+
+
+@lru_cache(maxsize=1)  # 2 MB; of materials that depend on phi_h, 18 MB
+def _lookup(grid: Grid) -> Corners:
+    """Where in tables on ``grid`` the measurable cells of the small ones are."""
+    small = small_grid(grid)
+    wi, wo = (directions[small.mask()] for directions in small.directions())
+    return grid.multilinear(wi, wo)

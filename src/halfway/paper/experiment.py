@@ -6,6 +6,7 @@ interpolation and our own space are measured on the same stops.
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from jaxtyping import Float64
@@ -66,11 +67,12 @@ class Experiment:
                 f"{library.name} has {len(library)} materials: the paper's three runs need at least {LEAST_MATERIALS}."
             )
         bench = Bench.fit(library, work=work)
+        fit = partial(make_space, blend=Blend.LINEAR, looks=bench.pacing, work=work)
         return cls(
             library,
             Pca.fit(library, work=work),
             bench,
-            {name: make_space(name, library, blend=Blend.LINEAR, work=work) for name in SPACES},
+            {name: fit(name, library) for name in SPACES},
             choose_stops(bench.pacing),
         )
 

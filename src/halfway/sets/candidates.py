@@ -10,7 +10,7 @@ from jaxtyping import Float, Float32, Float64
 
 from ..brdf import TabularBrdf, albedos
 from ..halfdiff import Grid
-from ..library import Library, Permuted
+from ..library import Permuted
 from ..look import Looks, appearance
 from ..recipes import Blend
 from ..tasks import HERE, Work
@@ -49,11 +49,6 @@ def candidates(
     chunks = [weighed[i : i + N_AT_ONCE] for i in range(0, len(weighed), N_AT_ONCE)]
     for some in work.run(partial(_seen, looks, blend), chunks, label="Looking at mixes"):
         yield from some
-
-
-def looks_of(library: Library, *, work: Work = HERE) -> Looks:
-    """What candidates are pictured by."""
-    return Looks.fit(library, work=work).thinned(THINNING)
 
 
 def materials(looks: Looks, *, work: Work = HERE) -> list[Candidate]:

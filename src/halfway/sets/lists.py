@@ -14,9 +14,10 @@ from jaxtyping import Float64
 
 from ..errors import FormatError
 from ..library import Library, Permuted
+from ..look import Looks
 from ..recipes import Blend
 from ..tasks import HERE, Work
-from .candidates import Weighed, candidates, looks_of, materials
+from .candidates import THINNING, Weighed, candidates, materials
 from .diversity import Diversity
 from .sets import SampleSet
 
@@ -39,7 +40,7 @@ def listed(
     orders = Permuted.ORDERS if permute_channels else Permuted.ORDERS[:1]
     pairs = list(_pairs(library, path, _lines(path)))
     weighed = [Weighed(weights, order) for weights in pairs for order in orders]
-    looks = looks_of(library, work=work)
+    looks = Looks.fit(library, work=work).thinned(THINNING)
     alone = materials(looks, work=work)
     chosen = list(candidates(looks, Blend.LINEAR, weighed, work=work))
     return SampleSet.of(

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from fractions import Fraction
+from functools import partial
 from math import inf
 from typing import Any
 
@@ -15,7 +16,7 @@ from ..recipes import Blend
 from ..space import Space, make_space
 from ..tasks import HERE, Work
 from .apart import Apart
-from .candidates import Candidate, Weighed, candidates, looks_of, materials
+from .candidates import THINNING, Candidate, Weighed, candidates, materials
 from .diversity import Diversity
 from .drawing import Drawing, squared_distances
 from .sets import SampleSet
@@ -62,7 +63,7 @@ def sample(
     Examples
     --------
     >>> from halfway.sets import sample
-    >>> new = sample("builtin:synthetic-15", 5, splits={"train": 80, "test": 20})
+    >>> new = sample("builtin:synthetic-8", 3, splits={"train": 80, "test": 20})
     >>> parents = {split: set(names) for split, names in new.splits.items()}
     >>> parents["train"] & parents["test"]
     set()
@@ -76,8 +77,10 @@ def sample(
         raise SpaceError(f"a set of {n} materials is none: expected 1 or more.")
     opened = open_library(library)
     parents = _parents(len(opened), splits, seed)
-    fitted = make_space(space, opened, blend=blend, work=work) if isinstance(space, str) else space
-    looks = looks_of(opened, work=work)
+    whole = Looks.fit(opened, work=work)
+    fit = partial(make_space, blend=blend, looks=whole, work=work)
+    fitted = fit(space, opened) if isinstance(space, str) else space
+    looks = whole.thinned(THINNING)
     alone = materials(looks, work=work)
     squares = squared_distances(np.stack([each.picture for each in alone]))
     apart = Apart(np.stack([each.picture for each in alone]))

@@ -72,11 +72,13 @@ class AnchoredSpace(Space):
         n_components: int | None = None,
         detour: float = DETOUR,
         blend: Blend = Blend.LOBES,
+        looks: Looks | None = None,
         work: Work = HERE,
     ) -> "AnchoredSpace":
         """The space of ``n_components`` joint scores and the body colours of the materials, in the mapping of a blend.
 
-        Without ``n_components`` it has `N_COMPONENTS`, or as many as the materials and their body colours leave.
+        Without ``n_components`` it has `N_COMPONENTS`, or as many as the materials and their body colours leave. ``looks`` are
+        the library's, where they are at hand.
 
         Raises
         ------
@@ -92,7 +94,7 @@ class AnchoredSpace(Space):
         return cls.of(
             LibraryRef.of(library),
             Coordinates((scores, body)),
-            Looks.fit(library, work=work),
+            looks or Looks.fit(library, work=work),
             detour=detour,
             blend=blend,
         )

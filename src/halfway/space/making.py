@@ -31,6 +31,7 @@ def make_space(
     n_components: int | None = None,
     detour: float = DETOUR,
     blend: Blend | str | None = None,
+    looks: Looks | None = None,
     work: Work = HERE,
 ) -> Space:
     """The space called ``name``, fitted to ``library``.
@@ -43,6 +44,8 @@ def make_space(
         Longest way of the anchored space, as a multiple of the direct one.
     blend : Blend or str, optional
         How its recipes are mixed; without it ``lobes`` in the anchored space, ``linear`` in the others.
+    looks : Looks, optional
+        The library's, where they are at hand; the anchored space makes them otherwise.
 
     Raises
     ------
@@ -55,7 +58,12 @@ def make_space(
     match name:
         case "anchored":
             return AnchoredSpace.fit(
-                library, n_components=n_components, detour=detour, blend=mixed, work=work
+                library,
+                n_components=n_components,
+                detour=detour,
+                blend=mixed,
+                looks=looks,
+                work=work,
             )
         case "paper":
             pca = Pca.fit(library, work=work)
@@ -115,16 +123,13 @@ def route(
         if isinstance(stop, str):
             opened.index(stop)
     Route.through(LinearSpace.of(opened, blend=mixed), stops)
+    looks = Looks.fit(opened, work=work) if pace == "perceptual" else None
     fit = partial(make_space, n_components=n_components, detour=detour, blend=blend, work=work)
-    fitted = fit(space, opened) if isinstance(space, str) else space
+    fitted = fit(space, opened, looks=looks) if isinstance(space, str) else space
     way = Route.through(fitted, stops)
-    match pace:
-        case "perceptual":
-            return perceptual(way, Looks.fit(opened, work=work))
-        case "people":
-            return by_people(way, Impressions.fit(opened, work=work))
-        case _:
-            return way
+    if looks:
+        return perceptual(way, looks)
+    return by_people(way, Impressions.fit(opened, work=work)) if pace == "people" else way
 
 
 def _blend(name: str, blend: Blend | str | None) -> Blend:
