@@ -103,7 +103,7 @@ def on_sheet(explorer: Explorer, texture_coordinates: str) -> np.ndarray:
     before = explorer.drawn()
     explorer.page.set_input_files("input[aria-label='Mesh file']", file)
     explorer.drawn_after(before)
-    explorer.wait_for_whole_picture(8)
+    explorer.wait_until_settled()
     return to_linear(explorer.drawn())
 
 
