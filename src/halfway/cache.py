@@ -7,11 +7,13 @@ import os
 from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
-
-import numpy as np
+from typing import TYPE_CHECKING
 
 from .errors import OutputError
 from .files import replacing
+
+if TYPE_CHECKING:
+    import numpy as np
 
 MOST_BYTES = 2e9
 """What the folder holds at most, beside the newest result."""
@@ -29,12 +31,14 @@ def user_folder() -> Path | None:
 
 
 def cached(
-    folder: Path, key: str, compute: Callable[[], dict[str, np.ndarray]]
-) -> dict[str, np.ndarray]:
+    folder: Path, key: str, compute: "Callable[[], dict[str, np.ndarray]]"
+) -> "dict[str, np.ndarray]":
     """The arrays that ``compute`` gives, from ``folder`` when it has them under ``key``.
 
     A folder that cannot be written costs the time to compute again, never the result; a damaged file is replaced.
     """
+    import numpy as np  # a tenth of a second, which a command without arrays does not wait for
+
     path = folder / f"{key}.npz"
     try:
         with path.open("rb") as file, np.load(file, allow_pickle=False) as archive:

@@ -14,12 +14,14 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Protocol, TypeVar, runtime_checkable
+from typing import TYPE_CHECKING, Protocol, TypeVar, runtime_checkable
 
-import numpy as np
 from threadpoolctl import threadpool_limits
 
 from .cache import cached
+
+if TYPE_CHECKING:
+    import numpy as np
 
 T = TypeVar("T")
 R = TypeVar("R")
@@ -85,8 +87,8 @@ class Work:
         yield from self.track(self.engine.map(f, tasks), label, len(tasks))
 
     def cached(
-        self, key: str, compute: Callable[[], dict[str, np.ndarray]]
-    ) -> dict[str, np.ndarray]:
+        self, key: str, compute: "Callable[[], dict[str, np.ndarray]]"
+    ) -> "dict[str, np.ndarray]":
         """The arrays that ``compute`` gives, from the cache folder when it has them under ``key``."""
         return compute() if self.cache is None else cached(self.cache, key, compute)
 
