@@ -192,7 +192,8 @@ def test_crossing_into_the_next_simplex_never_blanks_the_picture(explorer: Explo
         }}"""
     )
     assert seen["recipes"] > 2
-    assert min(seen["covered"]) == pytest.approx(max(seen["covered"]), rel=0.05), json.dumps(seen)
+    # A picture of few pixels has more of them at the edge.
+    assert min(seen["covered"]) > 0.8 * max(seen["covered"]), json.dumps(seen)
 
 
 def test_until_the_route_has_come_the_picture_is_empty(explorer: Explorer) -> None:
