@@ -126,8 +126,8 @@ BROKEN = "broken"
 SKIPPED = (
     "given/*", "cache/*", "site*/index.html", "site*/assets/*", "*.svg", "report*/manifest.json",
 )  # fmt: skip
-"""What was given, what is kept for the next run, the page, which is built of what is in `viewer/`, and figures that hold
-the time and ids of the run: the same figure is in the `.png` beside them."""
+"""What was given, what is kept for the next run, the page, which is built of what is in `viewer/`, figures that hold
+the time and ids of the run (the same figure is in the `.png` beside them), and the manifests that have their checksums."""
 
 
 FOLDER = Path(tempfile.gettempdir()).resolve() / "halfway-same-results"
