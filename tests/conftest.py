@@ -3,6 +3,7 @@
 Shapes and dtypes in the package's annotations are checked while the tests run.
 """
 
+import signal
 import sys
 from collections.abc import Callable
 from pathlib import Path
@@ -23,6 +24,9 @@ from strategies import random_tables  # noqa: E402
 
 from halfway.halfdiff import Grid  # noqa: E402 (after the hook)
 from halfway.library import ProceduralLibrary  # noqa: E402
+
+# A script's jobs in the background ignore Ctrl-C, and so does all that they start.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 
 # On a busy machine a draw may take long; what a test may take is CI's business.
 settings.register_profile(

@@ -81,7 +81,7 @@ def test_nobody_asks_what_kind_a_space_or_a_library_is(path: Path) -> None:
 
 def lengths() -> dict[str, int]:
     """Lines of every function, without its decorators and docstring."""
-    found = {}
+    n_lines_of = {}
     for path in FILES:
         for node in ast.walk(ast.parse(path.read_text())):
             if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
@@ -91,8 +91,8 @@ def lengths() -> dict[str, int]:
                 assert first.end_lineno is not None
                 text = first.end_lineno - first.lineno + 1 if has_text else 0
                 n_lines = node.end_lineno - node.lineno + 1 - text
-                found[f"{path.relative_to(SOURCE)}:{node.lineno} {node.name}"] = n_lines
-    return found
+                n_lines_of[f"{path.relative_to(SOURCE)}:{node.lineno} {node.name}"] = n_lines
+    return n_lines_of
 
 
 def test_functions_are_short() -> None:
@@ -130,3 +130,12 @@ def test_public_names_say_what_they_are(folder: str) -> None:
         )
         for each in [name, *members]:
             assert not words(each) & VAGUE, f"halfway.{folder}.{name}: {each}"
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda path: str(path.relative_to(SOURCE)))
+def test_local_names_say_what_they_are(path: Path) -> None:
+    for node in ast.walk(ast.parse(path.read_text())):
+        match node:
+            case ast.Name(id=name, ctx=ast.Store()) | ast.arg(arg=name):
+                allowed = {"data", "made"}  # numbers that are plotted; a manifest's key
+                assert not words(name) & (VAGUE - allowed), f"line {node.lineno}: {name}"

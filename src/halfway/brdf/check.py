@@ -176,8 +176,8 @@ def _mask_error(measured: Mask, grid: Grid) -> float:
 
 
 def _other_layout(table: TabularBrdf) -> str:
-    found = layout_of(table.values, table.grid)
-    return "" if found.is_plain and found.grid == table.grid else str(found)
+    layout = layout_of(table.values, table.grid)
+    return "" if layout.is_plain and layout.grid == table.grid else str(layout)
 
 
 def _broken(card: ValidityCard) -> Iterator[str]:

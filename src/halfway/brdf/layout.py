@@ -158,9 +158,9 @@ def _period(cells: np.ndarray, axis: int) -> int:
     n = cells.shape[axis]
     cells = np.moveaxis(cells, axis, 0).view(np.uint32)  # by their bits, NaN as well
     periods = (period for period in range(1, n // 2 + 1) if n % period == 0)
-    found = next((period for period in periods if _repeats(cells, period)), n)
-    few = found < n and len(np.unique(cells[:found])) < _LEAST_VALUES
-    return n if few or found == 1 else found
+    least = next((period for period in periods if _repeats(cells, period)), n)
+    few = least < n and len(np.unique(cells[:least])) < _LEAST_VALUES
+    return n if few or least == 1 else least
 
 
 def _repeats(cells: np.ndarray, period: int) -> bool:

@@ -44,8 +44,8 @@ def check(
         _repair(materials, output, force)
         return
     names = words if len(words) == len(materials) else [material.label for material in materials]
-    found = work().run(_card, materials, label="Checking")
-    cards = list(zip(names, found, strict=True))
+    results = work().run(_card, materials, label="Checking")
+    cards = list(zip(names, results, strict=True))
     if as_json:
         show_json([_as_json(*card) for card in cards])
     else:

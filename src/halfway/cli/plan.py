@@ -48,21 +48,21 @@ def plan(
     from halfway.recovery import plan as planned
 
     already = read_measurements(given) if given else None
-    found = planned(lib, n, max_theta=max_theta, in_plane=in_plane, given=already, work=work())
+    directions = planned(lib, n, max_theta=max_theta, in_plane=in_plane, given=already, work=work())
     with writing(output, picture, force=force):
         if output:
-            write_directions(output, found.wi, found.wo)
+            write_directions(output, directions.wi, directions.wo)
         if picture:
-            figures.save(picture, recovered.planned(found))
-    angles = np.degrees(np.stack(Angles.of(found.wi, found.wo), axis=1))
+            figures.save(picture, recovered.planned(directions))
+    angles = np.degrees(np.stack(Angles.of(directions.wi, directions.wo), axis=1))
     if as_json:
         keys = ("theta_i", "phi_i", "theta_o", "phi_o")
         pairs = [dict(zip(keys, row, strict=True)) for row in angles.round(6).tolist()]
-        facts = {"format": 1, "unit": "degrees", "pairs": pairs, "left": found.left.tolist()}
+        facts = {"format": 1, "unit": "degrees", "pairs": pairs, "left": directions.left.tolist()}
         show_json(facts)
     else:
         say("theta_i  phi_i  theta_o  phi_o (degrees); what is then still unknown (a factor)")
-        rows = zip(angles, np.exp(found.left), strict=True)
+        rows = zip(angles, np.exp(directions.left), strict=True)
         show(*("".join(f"{x:8.1f}" for x in row) + f"  {left:6.2f}" for row, left in rows))
     if output:
         say(

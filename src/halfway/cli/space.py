@@ -50,8 +50,8 @@ def space(
     chosen = make_space(space, library, n_components=components, blend=blend, work=work())
     if near:
         point = chosen.point_of(newcomer) if newcomer else chosen.points[library.index(near)]
-        found = _alike(library, near, newcomer, n)
-        _show_near(chosen, near, point, found, as_json)
+        alike = _alike(library, near, newcomer, n)
+        _show_near(chosen, near, point, alike, as_json)
     elif as_json:
         show_json(chosen.to_json())
     else:

@@ -145,32 +145,30 @@ class Control:
             for kind, name, target in wishes.each():
                 others = wishes.without(kind, name)
                 held = others.only(attribute(name).needs) if alone else others
-                if told := self._too_far(kind, name, target, held):
-                    return f"{told} Ask for that, or let another wish go; `halfway find --clamp` takes the nearest."
-        told = f"no mix of {self.library.name} has {wishes}, and none with one of them less"
+                if message := self._too_far(kind, name, target, held):
+                    return f"{message} Ask for that, or let another wish go; `halfway find --clamp` takes the nearest."
+        message = f"no mix of {self.library.name} has {wishes}, and none with one of them less"
         if not self.mixes(wishes).is_linear:
-            told = f"no mix of {self.library.name} was found that has {wishes}"
-        return f"{told}: let some go; `halfway find --clamp` takes the nearest."
+            message = f"no mix of {self.library.name} was found that has {wishes}"
+        return f"{message}: let some go; `halfway find --clamp` takes the nearest."
 
     def _too_far(self, kind: str, name: str, target: Any, held: Wishes) -> str | None:
         """What to say of a wish that no mix has where the others hold; None where one does, or none has the others."""
         wanted = attribute(name)
         beside = f" where {held}" if list(held.each()) else ""
-        told = f"no mix of {self.library.name} has {name} {SIGNS[kind]} {wanted.written(target)}{beside}"
+        message = f"no mix of {self.library.name} has {name} {SIGNS[kind]} {wanted.written(target)}{beside}"
         if not wanted.is_number:
-            return self._nearest_colour(wanted, target, held, told)
+            return self._nearest_colour(wanted, target, held, message)
         ends = self.reach(name, held)
         too_low = kind != "at_least" and ends is not None and target < ends.low
         too_high = kind != "at_most" and ends is not None and target > ends.high
         if ends is None or not (too_low or too_high):
             return None
         goes = "it goes" if self.mixes(held, also=[name]).is_linear else "it was found"
-        return (
-            f"{told}: {goes} from {wanted.written(ends.low)} to {wanted.written(ends.high)} there."
-        )
+        return f"{message}: {goes} from {wanted.written(ends.low)} to {wanted.written(ends.high)} there."
 
     def _nearest_colour(
-        self, wanted: Attribute, target: Any, held: Wishes, told: str
+        self, wanted: Attribute, target: Any, held: Wishes, message: str
     ) -> str | None:
         values, nothing = self.reader(held.names).values, np.zeros(len(self.library))
         colour = Wishes({wanted.name: target})
@@ -178,7 +176,7 @@ class Control:
         weights = solve(nothing, Goals.join([hard, colour.goals(values, missed=1.0)]))
         if weights is None or solve(nothing, Goals.join([hard, colour.goals(values)])) is not None:
             return None
-        return f"{told}: the nearest is {wanted.written(weights @ wanted.of(values))}."
+        return f"{message}: the nearest is {wanted.written(weights @ wanted.of(values))}."
 
     def _search(
         self,

@@ -101,7 +101,7 @@ def reach(
     """
     wishes = Wishes.of(set, at_most, at_least)
     control = Control.of(library, work=work)
-    found = control.reach(name, wishes)
-    if found is None:
+    ends = control.reach(name, wishes)
+    if ends is None:
         raise OutOfReachError(control.out_of_reach(wishes))
-    return found
+    return ends

@@ -92,8 +92,8 @@ class Linearised:
         if self._wishes.missed(self.readings(weights)) <= 1:
             return weights
         near = partial(self._least_change, weights=weights)
-        found, missed = self.approach(weights, near, np.flatnonzero(weights))
-        return found if missed <= 1 else None
+        nearest, missed = self.approach(weights, near, np.flatnonzero(weights))
+        return nearest if missed <= 1 else None
 
     def _steps(
         self, weights: Weights, near: Near, among: Among, offset: np.ndarray, enough: float

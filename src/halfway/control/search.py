@@ -56,20 +56,20 @@ class Search:
         held = holding(wishes, self.reference.readings, release)
         scaled = None
         if held is not None:
-            found = self.mix(held, thorough=False)
-            if found.missed <= 1:
-                return found.recipe
+            nearest = self.mix(held, thorough=False)
+            if nearest.missed <= 1:
+                return nearest.recipe
             scaled = self._recoloured(wishes)
             if scaled and self._missed(held, scaled) <= 1:
                 return scaled
-        found = self.mix(wishes, clamp=clamp and scaled is None)
-        if found.missed <= 1 or (scaled is None and (clamp or self.draft)):
-            return found.recipe
+        nearest = self.mix(wishes, clamp=clamp and scaled is None)
+        if nearest.missed <= 1 or (scaled is None and (clamp or self.draft)):
+            return nearest.recipe
         # Of linear mixes it can be said how far each wish goes.
-        if scaled is None and found.recipe is not None and self.blend is not Blend.LINEAR:
+        if scaled is None and nearest.recipe is not None and self.blend is not Blend.LINEAR:
             raise OutOfReachError(
                 f"no mix by the blend {str(self.blend)!r} near to the linear one has {wishes}: the nearest that was found is "
-                f"{found.missed:.3g} times too far off. Ask for less, take --blend linear, or this one with --clamp."
+                f"{nearest.missed:.3g} times too far off. Ask for less, take --blend linear, or this one with --clamp."
             )
         return scaled
 
@@ -94,11 +94,11 @@ class Search:
         names = self.control.library.names
         known = self.like.dense(names).any(axis=0) if isinstance(self.like, Recipe) else 0
         among = np.flatnonzero(known + weights)
-        found, missed = mixes.approach(weights, near, among, draft=self.draft)
+        nearest, missed = mixes.approach(weights, near, among, draft=self.draft)
         if missed > 1 and thorough and not self.draft:
             everything = np.arange(len(weights))
-            found, missed = mixes.approach(weights, near, everything)
-        return Found(self._recipe(found), missed)
+            nearest, missed = mixes.approach(weights, near, everything)
+        return Found(self._recipe(nearest), missed)
 
     def _recoloured(self, wishes: Wishes) -> Recipe | None:
         """What it shall be like, or the mix that has the other wishes, with its body scaled; None where that does not do."""

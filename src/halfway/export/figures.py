@@ -112,11 +112,11 @@ def spaces(measured: Sequence[Mapping[str, Any]], label: str) -> "Figure":
     """Detour against realism of each space, median and 90th percentile: left is direct, low is real."""
     figure = empty((6, 4.2))
     ax = figure.subplots()
-    for found in measured:
-        detour, realism = found["detour"], found["realism"]["log by cell"]
+    for space in measured:
+        detour, realism = space["detour"], space["realism"]["log by cell"]
         x, y = (np.array([of["median"], of["90th percentile"]]) for of in (detour, realism))
         ax.plot(x, y, "-", lw=1, alpha=0.5, color="#555")
-        ax.plot(x[:1], y[:1], "o", label=f"{found['space']}, {found['blend']}")
+        ax.plot(x[:1], y[:1], "o", label=f"{space['space']}, {space['blend']}")
     ax.set(
         xscale="log",
         xlabel="detour (median, to the 90th percentile)",

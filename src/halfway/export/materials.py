@@ -73,8 +73,8 @@ def _kept(brdf: Brdf, table: TabularBrdf) -> str:
     """How near a table is to an anisotropic material that is none: coarse grids, and those without phi_h, keep less."""
     if isinstance(brdf, TabularBrdf) or brdf.is_isotropic:
         return ""
-    found = quality(lit_sphere(table), lit_sphere(brdf))
-    return f", {found.psnr:.1f} dB of its own values on a lit sphere"
+    likeness = quality(lit_sphere(table), lit_sphere(brdf))
+    return f", {likeness.psnr:.1f} dB of its own values on a lit sphere"
 
 
 def recipe_beside(path: Path, material: NamedBrdf) -> Path | None:

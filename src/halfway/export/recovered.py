@@ -85,7 +85,7 @@ def _near(recovery: Recovery, theta: float, channel: int) -> tuple[np.ndarray, n
     """Measured pairs near a slice, either way round: the viewer's angle, negative on the light's side, and the value."""
     measured = recovery.measurements
     values = measured.values[:, channel]
-    found = []
+    slices = []
     for light, viewer in ((measured.wi, measured.wo), (measured.wo, measured.wi)):
         a = Angles.of(light, viewer)
         turn = np.abs(np.angle(np.exp(1j * (np.asarray(a.phi_o) - np.asarray(a.phi_i)))))
@@ -93,8 +93,8 @@ def _near(recovery: Recovery, theta: float, channel: int) -> tuple[np.ndarray, n
         steep = np.minimum(a.theta_i, a.theta_o) < _IN_PLANE / 2
         near = (np.abs(a.theta_i - theta) < _IN_PLANE) & (mirrored | same | steep)
         signed = np.where(same, -1, 1) * a.theta_o
-        found.append(np.stack([signed[near], values[near]]))
-    at, value = np.concatenate(found, axis=1)
+        slices.append(np.stack([signed[near], values[near]]))
+    at, value = np.concatenate(slices, axis=1)
     return at, value
 
 

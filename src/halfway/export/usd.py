@@ -74,14 +74,14 @@ def identifiers(names: Sequence[str]) -> list[str]:
     """
     seen = Counter[str]()
     taken = {identifier(name or "material") for name in names}
-    found: list[str] = []
+    unique: list[str] = []
     for name in names:
         own = identifier(name or "material")
         seen[own] += 1
         while seen[own] > 1 and f"{own}_{seen[own]}" in taken:
             seen[own] += 1
-        found.append(f"{own}_{seen[own]}" if seen[own] > 1 else own)
-    return found
+        unique.append(f"{own}_{seen[own]}" if seen[own] > 1 else own)
+    return unique
 
 
 def _header(prim: str, more: str = "") -> str:

@@ -51,13 +51,13 @@ def dataset(name: str, *, base_url: str = "") -> Dataset:
     FetchError
         When there is none.
     """
-    found = _rgl(name.removeprefix("rgl:")) if name.startswith("rgl:") else _DATASETS.get(name)
-    if found is None:
+    known = _rgl(name.removeprefix("rgl:")) if name.startswith("rgl:") else _DATASETS.get(name)
+    if known is None:
         raise FetchError(f"{name} is no data set: expected {_NAMES}.")
     if not base_url:
-        return found
-    moved = (replace(d, url=f"{base_url.rstrip('/')}/{d.file}") for d in found.downloads)
-    return replace(found, downloads=tuple(moved))
+        return known
+    moved = (replace(d, url=f"{base_url.rstrip('/')}/{d.file}") for d in known.downloads)
+    return replace(known, downloads=tuple(moved))
 
 
 def rgl_names() -> tuple[str, ...]:

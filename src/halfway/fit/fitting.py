@@ -137,16 +137,16 @@ def fit(
         raise HalfwayError(f"there is no model {model!r}: expected {', '.join(MODELS)}.")
     target, truth = Target.of(brdf, name), lit_sphere(brdf)
     with threadpool_limits(1, "blas"):
-        found = _chosen(_candidates(MODELS[model], target, solver or _scipys), truth)
+        fitted = _chosen(_candidates(MODELS[model], target, solver or _scipys), truth)
     angles = np.radians(ALBEDO_DEGREES)
-    albedo_error = np.abs(directional_albedo(found, angles) - directional_albedo(brdf, angles))
+    albedo_error = np.abs(directional_albedo(fitted, angles) - directional_albedo(brdf, angles))
     return Fit(
         name,
-        found,
-        float(np.linalg.norm(target.difference(found)[0])),
-        quality(lit_sphere(found), truth),
+        fitted,
+        float(np.linalg.norm(target.difference(fitted)[0])),
+        quality(lit_sphere(fitted), truth),
         float(albedo_error.max()),
-        {read: quality(lit_sphere(other), truth) for read, other in found.readings.items()},
+        {read: quality(lit_sphere(other), truth) for read, other in fitted.readings.items()},
     )
 
 
@@ -171,9 +171,9 @@ def _candidates(kind: type[AnalyticModel], target: Target, solver: Solver) -> li
     if not kind.simpler:
         return _searched(kind, target, kind.held(even), solver)[:1]
     return [
-        found
+        model
         for held in (*kind.simpler, {})
-        for found in _searched(kind, target, kind.held({**even, **held}), solver)
+        for model in _searched(kind, target, kind.held({**even, **held}), solver)
     ]
 
 
@@ -208,7 +208,7 @@ def _searched(
     inside = low + 1e-3 * width, high - 1e-3 * width
     starts = [np.clip(start.to_vector(), *inside)[free] for start in _starts(kind, target)]
     starts.sort(key=lambda x: float(np.square(residuals(x)).sum()))
-    found: list[Any] = [
+    ends: list[Any] = [
         solver(
             residuals,
             start,
@@ -220,10 +220,10 @@ def _searched(
         )
         for start in starts[: kind.n_searches]
     ]
-    found.sort(key=_cost)
+    ends.sort(key=_cost)
     return [
         _within_half_a_turn(kind.from_vector(np.clip(whole(result.x).round(DECIMALS), low, high)))
-        for result in found
+        for result in ends
     ]
 
 

@@ -28,6 +28,7 @@ from .microfacet import Pair, Widths, ggx, gtr1, schlick, smith
 from .model import ANY_TURN, AnalyticModel, Range, channels
 
 _LUMINANCE = np.array([0.212671, 0.715160, 0.072169])
+"""Mitsuba's, which differs from sRGB's in the fourth digit."""
 LEAST_WIDTH = 0.001
 """Of the specular lobe, in Mitsuba."""
 

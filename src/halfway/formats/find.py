@@ -115,20 +115,20 @@ def find_brdfs(
     FormatError
         When a source does not exist, when one that is a single file is no BRDF, or when two BRDFs have the same name.
     """
-    found: dict[str, SourceBrdf] = {}
+    brdfs: dict[str, SourceBrdf] = {}
     skipped: list[Skipped] = []
     for source in sources:
         for item in _items(source, skip_damaged):
             if isinstance(item, Skipped):
                 skipped.append(item)
                 continue
-            if item.name in found:
+            if item.name in brdfs:
                 raise FormatError(
-                    f"{item.name} is there twice, as {found[item.name].source} and {item.source}: "
+                    f"{item.name} is there twice, as {brdfs[item.name].source} and {item.source}: "
                     "each material needs a name of its own. Rename one, or leave one out."
                 )
-            found[item.name] = item
-    return list(found.values()), skipped
+            brdfs[item.name] = item
+    return list(brdfs.values()), skipped
 
 
 def read_nbrdf_archive(path: str | Path) -> ModelSet:
@@ -142,8 +142,8 @@ def read_nbrdf_archive(path: str | Path) -> ModelSet:
     archive = FileSource(Path(path))
     if _kind(archive) != "zip":
         raise FormatError(f"{archive.label} is no zip: expected an archive of neural BRDFs (.h5).")
-    found, _ = find_brdfs([archive.path])
-    loaded = {item.name: item.load() for item in found if item.grid is None}
+    brdfs, _ = find_brdfs([archive.path])
+    loaded = {item.name: item.load() for item in brdfs if item.grid is None}
     networks = {name: brdf for name, brdf in loaded.items() if isinstance(brdf, NeuralBrdf)}
     if not networks:
         raise FormatError(
@@ -212,14 +212,14 @@ def _chunk_checksum(store: ZarrStore, i: int) -> str:
 
 def _files(folder: Path) -> list[Path]:
     """The files in a folder and its subfolders; a Zarr store is one."""
-    found: list[Path] = []
+    paths: list[Path] = []
     for parent, folders, names in os.walk(folder):
         if is_zarr(Path(parent)):
             folders.clear()
-            found.append(Path(parent))
+            paths.append(Path(parent))
         else:
-            found += [Path(parent, name) for name in names]
-    return sorted(found, key=by_name)
+            paths += [Path(parent, name) for name in names]
+    return sorted(paths, key=by_name)
 
 
 def _among_others(path: Path) -> Iterator[SourceBrdf | Skipped]:

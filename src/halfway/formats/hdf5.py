@@ -52,12 +52,12 @@ class Hdf5Object:
 
     def __getitem__(self, path: str) -> "Hdf5Object":
         """What a group holds under ``path``, names with ``/`` between."""
-        found = self
+        inner = self
         for name in filter(None, path.split("/")):
-            if name not in found._members:
+            if name not in inner._members:
                 raise Hdf5Error(f"there is no {path[:100]!r}")
-            found = Hdf5Object(self._bytes, found._members[name])
-        return found
+            inner = Hdf5Object(self._bytes, inner._members[name])
+        return inner
 
     def __contains__(self, name: str) -> bool:
         return name in self._members

@@ -170,14 +170,14 @@ def _decoded(source: Source) -> TabularBrdf | None:
 
 def _table(values: Table, stated: Grid, name: str) -> TabularBrdf:
     """The table of samples that lie in a file whose header states this grid."""
-    found = layout_of(values, stated)
-    if stated.size == MERL.size and found.grid != MERL and not np.isnan(values).any():
+    layout = layout_of(values, stated)
+    if stated.size == MERL.size and layout.grid != MERL and not np.isnan(values).any():
         warnings.warn(
             f"{name or 'the table'} states {stated}, as many cells as the database's {MERL}, and none is unmeasured, which "
             f"would tell their order: taken as stated. If it is the database's, write {MERL} into its header.",
             stacklevel=2,
         )
-    return TabularBrdf(found.of(values), found.grid, name=name)
+    return TabularBrdf(layout.of(values), layout.grid, name=name)
 
 
 def write_merl(path: str | Path, table: TabularBrdf) -> None:

@@ -24,7 +24,7 @@ Reading = Float64[np.ndarray, "*k n_instruments 3"]
 """By instrument, in the order of `INSTRUMENTS`, and channel; NaN where none of its cells is measured."""
 Numbers = Float64[np.ndarray | np.floating, "*k"]
 """One of each material."""
-_PLACES = {name: i for i, name in enumerate(INSTRUMENTS)}
+_POSITIONS = {name: i for i, name in enumerate(INSTRUMENTS)}
 
 
 class Condition(NamedTuple):
@@ -152,7 +152,9 @@ class Lab(Attribute):
         return ("colour",)
 
     def of(self, readings: Reading) -> Numbers:
-        x, y, z = np.moveaxis(response(to_relative_xyz(readings[..., _PLACES["colour"], :])), -1, 0)
+        x, y, z = np.moveaxis(
+            response(to_relative_xyz(readings[..., _POSITIONS["colour"], :])), -1, 0
+        )
         return (116 * y - 16, 500 * (x - y), 200 * (y - z))[self.coordinate]
 
     def conditions(self, target: float, given: Mapping[str, Any]) -> list[Condition]:
@@ -181,7 +183,7 @@ class Width(Attribute):
         return PROFILE_NAMES
 
     def of(self, readings: Reading) -> Numbers:
-        profile = readings[..., [_PLACES[name] for name in PROFILE_NAMES], :]
+        profile = readings[..., [_POSITIONS[name] for name in PROFILE_NAMES], :]
         energy = np.einsum("ji,...ic,c->...j", _ENERGY, profile, LUMINANCE)
         half = energy[..., -1] / 2
         j = np.maximum((energy >= half[..., None]).argmax(axis=-1), 1)
@@ -228,7 +230,7 @@ class BodyColour(Attribute):
         return ("body",)
 
     def of(self, readings: Reading) -> Float64[np.ndarray, "*k 3"]:
-        return readings[..., _PLACES["body"], :]
+        return readings[..., _POSITIONS["body"], :]
 
     def conditions(
         self,
@@ -262,9 +264,9 @@ def luminance_of(instruments: Mapping[str, float]) -> Coefficients:
 
 def _only(instrument: str, row: Float64[np.ndarray, " 3"]) -> Coefficients:
     coefficients = np.zeros((len(INSTRUMENTS), 3))
-    coefficients[_PLACES[instrument]] = row
+    coefficients[_POSITIONS[instrument]] = row
     return coefficients
 
 
 def _luminance(readings: Reading, instrument: str) -> Numbers:
-    return readings[..., _PLACES[instrument], :] @ LUMINANCE
+    return readings[..., _POSITIONS[instrument], :] @ LUMINANCE

@@ -155,14 +155,14 @@ def find_materials(sources: Sequence[str | Location]) -> tuple[list[SourceBrdf],
     files = [str(source) for source in sources if source not in libraries]
     materials = [item for source in libraries for item in open_library(source).materials()]
     others, skipped = find_brdfs(files, skip_damaged=True)
-    places: dict[str, str] = {}
+    sources_of: dict[str, str] = {}
     for item in [*materials, *others]:
-        if item.name in places:
+        if item.name in sources_of:
             raise LibraryError(
-                f"{item.name} is there twice, as {places[item.name]} and {item.source}: "
+                f"{item.name} is there twice, as {sources_of[item.name]} and {item.source}: "
                 "each material needs a name of its own. Rename one, or leave one out."
             )
-        places[item.name] = item.source
+        sources_of[item.name] = item.source
     return [*materials, *others], skipped
 
 

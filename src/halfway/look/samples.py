@@ -147,8 +147,8 @@ def _draw_cells(grid: Grid, n_cells: int, seed: int) -> _Drawn:
     solid_angle = setting.solid_angle.ravel()[allowed]
     probability = (solid_angle / solid_angle.sum() + 1 / len(allowed)) / 2
     start = np.random.default_rng(seed).random()
-    place = np.searchsorted(np.cumsum(probability) * n_cells, np.arange(n_cells) + start)
-    drawn, times = np.unique(np.minimum(place, len(allowed) - 1), return_counts=True)
+    nth = np.searchsorted(np.cumsum(probability) * n_cells, np.arange(n_cells) + start)
+    drawn, times = np.unique(np.minimum(nth, len(allowed) - 1), return_counts=True)
     cells = allowed[drawn]
     cosines = np.stack([setting.cos_i.ravel()[cells], setting.cos_o.ravel()[cells]])
     once = times / probability[drawn]

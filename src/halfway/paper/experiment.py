@@ -84,7 +84,7 @@ class Experiment:
         """How direct and how even a run is in each space."""
         stops = self.stops[run.figure]
         pair = np.array([[self.library.index(stop) for stop in stops]])
-        found = {
+        measured = {
             name: evaluate(space, self.bench, pair, paces={"uniform": uniform})
             for name, space in self.spaces.items()
         }
@@ -93,8 +93,8 @@ class Experiment:
             stops,
             run.stops,
             len(self.route(run).used()),
-            {name: float(each.detour[0]) for name, each in found.items()},
-            {name: float(each.jump["uniform"][0]) for name, each in found.items()},
+            {name: float(each.detour[0]) for name, each in measured.items()},
+            {name: float(each.jump["uniform"][0]) for name, each in measured.items()},
         )
 
     def evenly_seen(self, run: Run, n: int) -> tuple[float, ...]:

@@ -16,40 +16,40 @@ from .reported import (
 from .reproduction import MeasuredRun, Reproduction
 
 
-def write_page(folder: Path, found: Reproduction) -> None:
+def write_page(folder: Path, results: Reproduction) -> None:
     """Write ``page.md`` and ``page.html`` beside the pictures that they show."""
-    text = "\n\n".join(_sections(found)) + "\n"
+    text = "\n\n".join(_sections(results)) + "\n"
     html = html_page("The paper's figures and tables", text)
     for name, content in (("page.md", text), ("page.html", html)):
         write_text(folder / name, content)
 
 
-def _sections(found: Reproduction) -> Iterator[str]:
-    yield _head(found)
-    yield from _table_1(found)
-    yield from _plots(found)
-    yield from _runs(found)
-    yield from _comparison(found)
-    yield from _costs(found)
-    yield _differences(found)
+def _sections(results: Reproduction) -> Iterator[str]:
+    yield _head(results)
+    yield from _table_1(results)
+    yield from _plots(results)
+    yield from _runs(results)
+    yield from _comparison(results)
+    yield from _costs(results)
+    yield _differences(results)
 
 
-def _head(found: Reproduction) -> str:
+def _head(results: Reproduction) -> str:
     return (
         "# The paper's figures and tables\n\n"
         "Every table and figure of *Using Dimensionality Reduction to Create New Materials from Tabular BRDFs* "
         "(da Silva Nunes, Miranda Jr., Trinchão Andrade), made by `halfway reproduce` on "
-        f"`{Path(found.report.library).name}`: {found.n_materials} materials, {found.report.description}. "
+        f"`{Path(results.report.library).name}`: {results.n_materials} materials, {results.report.description}. "
         "Where the paper gives a number, ours stands beside it; [what differs](#what-differs) is at the end."
     )
 
 
-def _table_1(found: Reproduction) -> Iterator[str]:
+def _table_1(results: Reproduction) -> Iterator[str]:
     yield "## Table I: error of the reconstruction"
     columns = (
         "components", "the paper", "ours", "uncentred", "over all materials", "variance left",
     )  # fmt: skip
-    yield markdown_table(columns, map(_table_1_row, found.report.table_1))
+    yield markdown_table(columns, map(_table_1_row, results.report.table_1))
     yield (
         "*Ours* is the mean over materials and channels of |u - u_k| / |u|, where u is a material minus the mean "
         "material and u_k its reconstruction from k components. The paper names its number *mean relative error* and "
@@ -69,7 +69,7 @@ def _table_1_row(row: TableRow) -> tuple[str, ...]:
     )
 
 
-def _plots(found: Reproduction) -> Iterator[str]:
+def _plots(results: Reproduction) -> Iterator[str]:
     yield "## Figure 2: materials as points, and their triangulation"
     yield _picture("figure-2.webp", "Two scores per channel and their Delaunay triangulation")
     yield (
@@ -83,13 +83,13 @@ def _plots(found: Reproduction) -> Iterator[str]:
     yield (
         f"The paper: with {N_COMPONENTS} components the eigenvalues that remain are below {SMALL_EIGENVALUE:g} in all "
         "channels; it does not say in what unit. As shares of the sum of all, ours are below "
-        f"{SMALL_EIGENVALUE:g} after {found.n_components} components, and after {N_COMPONENTS} the largest that remains is "
-        f"{found.share_after_36:.1e}."
+        f"{SMALL_EIGENVALUE:g} after {results.n_components} components, and after {N_COMPONENTS} the largest that remains is "
+        f"{results.share_after_36:.1e}."
     )
 
 
-def _runs(found: Reproduction) -> Iterator[str]:
-    fabrics, speculars, far = found.runs
+def _runs(results: Reproduction) -> Iterator[str]:
+    fabrics, speculars, far = results.runs
     yield f"## Figure 5: {_way(fabrics)}"
     yield _picture("figure-5.webp", f"Teapots from {_way(fabrics)}, at the paper's t")
     yield _stood_in(fabrics) + (
@@ -107,21 +107,21 @@ def _runs(found: Reproduction) -> Iterator[str]:
     yield _picture("figure-7.webp", f"Spheres from {_way(far)}: far steps above, near steps below")
     yield _stood_in(far) + (
         f"The paper's point is that few materials leap here and a finer list of t does not. With {N_STEPS} materials the "
-        f"largest visible step is {found.largest_step['51']:.1f} (CIEDE2000, mean over a lit sphere), with t = 0.0001, "
-        f"0.0002 ... 1 it is {found.largest_step['fine']:.2f}. The lower row takes six of the fine list that look "
+        f"largest visible step is {results.largest_step['51']:.1f} (CIEDE2000, mean over a lit sphere), with t = 0.0001, "
+        f"0.0002 ... 1 it is {results.largest_step['fine']:.2f}. The lower row takes six of the fine list that look "
         "equally far apart."
     )
     yield "## Figure 8: three new materials in one scene"
     yield _picture("figure-8.webp", "Three objects in three new materials")
     yield (
         f"The third, fifth and sixth material of the lower row of Figure 7, t = "
-        f"{', '.join(f'{found.fine_ts[i]:.4g}' for i in (2, 4, 5))}, with the light between the objects."
+        f"{', '.join(f'{results.fine_ts[i]:.4g}' for i in (2, 4, 5))}, with the light between the objects."
     )
 
 
-def _comparison(found: Reproduction) -> Iterator[str]:
+def _comparison(results: Reproduction) -> Iterator[str]:
     yield "## Against linear interpolation"
-    for run in found.runs:
+    for run in results.runs:
         yield _picture(
             f"comparison-{run.figure}.webp", f"{_way(run)}: the paper's space, linear, anchored"
         )
@@ -136,32 +136,36 @@ def _comparison(found: Reproduction) -> Iterator[str]:
         columns,
         (
             (_way(run), *(f"{by[space]:.2f}" for by in (run.detour, run.jump) for space in by))
-            for run in found.runs
+            for run in results.runs
         ),
     )
 
 
-def _costs(found: Reproduction) -> Iterator[str]:
+def _costs(results: Reproduction) -> Iterator[str]:
     yield "## What it costs"
     yield markdown_table(
         ("", "the paper", "ours"),
         (
-            ("a new material", f"{SECONDS_PER_MATERIAL} s", f"{found.seconds_per_material:.2g} s"),
-            ("a picture", f"{SECONDS_PER_PICTURE} s", f"{found.seconds_per_picture:.2g} s"),
+            (
+                "a new material",
+                f"{SECONDS_PER_MATERIAL} s",
+                f"{results.seconds_per_material:.2g} s",
+            ),
+            ("a picture", f"{SECONDS_PER_PICTURE} s", f"{results.seconds_per_picture:.2g} s"),
         ),
     )
-    width, height = found.size
+    width, height = results.size
     yield (
         "The paper used a Core i3-4130 of 2013 and pbrt-v2, at a size and a number of samples that it does not say; ours is "
-        f"this machine and Mitsuba 3 at {width} x {height} pixels and {found.spp} samples. So compare the orders of "
+        f"this machine and Mitsuba 3 at {width} x {height} pixels and {results.spp} samples. So compare the orders of "
         "magnitude. The pictures of a run are mixed from one picture per measured material; the middle of Figure 5, "
-        f"rendered in full, differs from its mixed picture by {found.mixed_picture_error:.1e} of its brightness, the noise of "
+        f"rendered in full, differs from its mixed picture by {results.mixed_picture_error:.1e} of its brightness, the noise of "
         "both included."
     )
 
 
-def _differences(found: Reproduction) -> str:
-    stand_in = "stand-in" in found.report.description
+def _differences(results: Reproduction) -> str:
+    stand_in = "stand-in" in results.report.description
     measured = (
         "- **The materials are stand-ins**, fits of the measured ones: see the first paragraph. Fits are smoother than "
         "measurements, and an analytic model has fewer dimensions than the materials it fits.\n"

@@ -117,7 +117,7 @@ def reproduce(
     draw.comparison(FAR_APART, spheres)
     draw.new_materials([fine_ts[i] for i in DRESSED], trio)
 
-    found = Reproduction(
+    reproduction = Reproduction(
         Report.of(library, experiment.pca),
         len(library),
         n_components_below(experiment.pca.eigenvalues, SMALL_EIGENVALUE),
@@ -129,9 +129,9 @@ def reproduce(
         shape,
         spp,
     )
-    write_text(folder / "paper.json", json.dumps(found.to_json(), indent=1))
-    write_page(folder, found)
-    return found
+    write_text(folder / "paper.json", json.dumps(reproduction.to_json(), indent=1))
+    write_page(folder, reproduction)
+    return reproduction
 
 
 class _Draw:

@@ -26,19 +26,19 @@ Reading = Float64[np.ndarray, "*k n_readings 3"]
 class Quality(Attribute):
     """How people perceive a material in one respect."""
 
-    place: int
-    """Of its reading."""
+    i_reading: int
+    """The position of its reading, behind those of the instruments."""
 
     @property
     def instruments(self) -> tuple[str, ...]:
         return ()
 
     def of(self, readings: Reading) -> Float64[np.ndarray | np.floating, "*k"]:
-        return readings[..., self.place, 0]
+        return readings[..., self.i_reading, 0]
 
     def conditions(self, target: float, given: Mapping[str, Any]) -> list[Condition]:  # noqa: ARG002
-        coefficients = np.zeros((self.place + 1, 3))
-        coefficients[self.place, 0] = 1.0
+        coefficients = np.zeros((self.i_reading + 1, 3))
+        coefficients[self.i_reading, 0] = 1.0
         return [Condition(coefficients, target)]
 
 
@@ -62,7 +62,7 @@ QUALITIES: Mapping[str, Quality] = {
         most=MOST,
         close=0.01,
         group=_group(name),
-        place=len(INSTRUMENTS) + i,
+        i_reading=len(INSTRUMENTS) + i,
     )
     for i, name in enumerate(networks())
 }

@@ -183,11 +183,11 @@ class Recipe:
         RecipeError
             When it is of a material that is not among them.
         """
-        places = {name: i for i, name in enumerate(names)}
-        if missing := [name for name in self.names if name not in places]:
+        positions = {name: i for i, name in enumerate(names)}
+        if missing := [name for name in self.names if name not in positions]:
             raise RecipeError(f"{self.library.name} has no material called {missing[0]!r}.")
         weights = np.zeros((3, len(names)))
-        weights[:, [places[name] for name in self.names]] = self.weights
+        weights[:, [positions[name] for name in self.names]] = self.weights
         return weights
 
 

@@ -83,7 +83,7 @@ def _channels(names: Sequence[str]) -> list[int]:
         layer, _, channel = name.rpartition(".")
         if channel.lower() in _COLOURS:
             layers.setdefault(layer, {})[channel[0].lower()] = i
-    coloured = [layer for layer, found in layers.items() if len(found) == len("rgb")]
+    coloured = [layer for layer, channels in layers.items() if len(channels) == len("rgb")]
     bare = [layer for layer in coloured if not layer]
     whole = [layer for layer in coloured if layer.rpartition(".")[2].lower() in _WHOLE]
     only = next((some for some in (bare, whole, coloured) if len(some) == 1), None)

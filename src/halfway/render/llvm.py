@@ -122,8 +122,8 @@ def _on_system() -> list[Llvm]:
         for pattern in _SYSTEM_LIBRARIES.get(sys.platform, ())
         for path in Path("/").glob(pattern.lstrip("/"))
     ]
-    found = [Llvm(path, _version(path), "system") for path in paths]
-    return sorted(found, key=lambda llvm: (llvm.version or 0, str(llvm.path)), reverse=True)
+    installed = [Llvm(path, _version(path), "system") for path in paths]
+    return sorted(installed, key=lambda llvm: (llvm.version or 0, str(llvm.path)), reverse=True)
 
 
 def _version(path: Path) -> int | None:

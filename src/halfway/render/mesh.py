@@ -54,18 +54,18 @@ def joined(meshes: Sequence[Mesh]) -> Mesh:
     )
 
 
-def placed(mesh: Mesh, place: Placed) -> Mesh:
+def placed(mesh: Mesh, obj: Placed) -> Mesh:
     """The mesh where a scene wants it: as large as there is room for it, turned, the middle of its foot at its place."""
     positions = mesh.positions.astype(float)
     low, high = positions.min(axis=0), positions.max(axis=0)
     positions -= np.array([*(low + high)[:2] / 2, low[2]])
     width = 2 * np.hypot(positions[:, 0], positions[:, 1]).max()
-    scale = 1 / max((high - low)[2] / place.height, width / place.width)
-    turn = np.radians(place.turn_degrees)
+    scale = 1 / max((high - low)[2] / obj.height, width / obj.width)
+    turn = np.radians(obj.turn_degrees)
     c, s = np.cos(turn), np.sin(turn)
     rotation = np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]])
     return Mesh.of(
-        positions * scale @ rotation.T + np.array(place.at),
+        positions * scale @ rotation.T + np.array(obj.at),
         mesh.normals @ rotation.T,
         mesh.faces,
         mesh.uv,
@@ -162,10 +162,10 @@ def outward(
     if np.einsum("ij,ij->", a - positions.mean(axis=0), across) < 0:
         faces, across = faces[:, ::-1], -across
         uv = None if uv is None else uv[:, ::-1]
-    made = _made(len(positions), faces, across)
+    own = _of_faces(len(positions), faces, across)
     given = np.linalg.norm(normals, axis=1, keepdims=True) > 0
-    other_side = np.einsum("ij,ij->i", normals, made)[:, None] < 0
-    normals = np.where(given, np.where(other_side, -normals, normals), made)
+    other_side = np.einsum("ij,ij->i", normals, own)[:, None] < 0
+    normals = np.where(given, np.where(other_side, -normals, normals), own)
     return Mesh.of(positions, unit(normals), faces, uv)
 
 
@@ -175,11 +175,11 @@ def unit(v: np.ndarray) -> np.ndarray:
     return v / np.where(length > 0, length, 1)
 
 
-def _made(n_vertices: int, faces: np.ndarray, across: np.ndarray) -> np.ndarray:
+def _of_faces(n_vertices: int, faces: np.ndarray, across: np.ndarray) -> np.ndarray:
     """A normal for each vertex, of its faces; of one of them where they cancel, as those of a sheet that is there from both sides."""
-    made, one = np.zeros((2, n_vertices, 3))
+    total, one = np.zeros((2, n_vertices, 3))
     for corner in range(3):
-        np.add.at(made, faces[:, corner], across)
+        np.add.at(total, faces[:, corner], across)
         one[faces[:, corner]] = across
-    size = np.abs(made).max(axis=1, keepdims=True)
-    return np.where(size > 1e-6 * np.abs(one).max(axis=1, keepdims=True), made, one)
+    size = np.abs(total).max(axis=1, keepdims=True)
+    return np.where(size > 1e-6 * np.abs(one).max(axis=1, keepdims=True), total, one)

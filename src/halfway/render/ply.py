@@ -95,11 +95,11 @@ def parse_ply(content: bytes) -> Polygons:
 
 def _header(content: bytes) -> tuple[list[_Element], bytes]:
     """The elements, and the data as bytes that they describe."""
-    found = _HEADER.match(content, 0, _LONGEST_HEADER)
-    if found is None:
+    header = _HEADER.match(content, 0, _LONGEST_HEADER)
+    if header is None:
         raise MeshFault("does not begin as a PLY file: expected ply ... end_header")
-    lines = [line.split() for line in found[1].decode("ascii", errors="replace").splitlines()]
-    data = content[found.end() :]
+    lines = [line.split() for line in header[1].decode("ascii", errors="replace").splitlines()]
+    data = content[header.end() :]
     match next((line for line in lines if line[:1] == ["format"]), []):
         case ["format", "ascii", "1.0"]:
             return _elements(lines, None), _numbers(data)

@@ -79,8 +79,8 @@ def _pixels(body: bytes, n_rows: int, n_columns: int) -> np.ndarray:
     rgbe = np.frombuffer(body, np.uint8, len(body) // 4 * 4).reshape(-1, 4)
     run = (rgbe[:, :3] == 1).all(axis=1)
     pixel = np.maximum.accumulate(np.where(run, -1, np.arange(len(run))))  # that a run repeats
-    place = np.arange(len(run)) - pixel - 1
-    times = np.where(run, rgbe[:, 3].astype(np.int64) << 8 * np.clip(place, 0, 3), 1)
+    nth = np.arange(len(run)) - pixel - 1
+    times = np.where(run, rgbe[:, 3].astype(np.int64) << 8 * np.clip(nth, 0, 3), 1)
     n_pixels = int(times.sum())
     if n_pixels < n_rows * n_columns or (len(pixel) and pixel[0] < 0):
         raise PictureFault(f"holds {n_pixels:,} pixels: expected {n_rows:,} x {n_columns:,}")

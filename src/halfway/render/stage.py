@@ -116,8 +116,8 @@ class Stage:
     def _load(self, bsdfs: list[Any], sensor: dict[str, Any], *, ground: bool) -> list[Any]:
         """One scene for each light: their pictures add up, and no sample goes to choosing between lights."""
         description: dict[str, Any] = {"type": "scene", "sensor": sensor}
-        for i, (place, mesh) in enumerate(zip(self._scene.objects, self._meshes, strict=True)):
-            description[f"object_{i}"] = _shape(place, mesh, bsdfs[place.material])
+        for i, (obj, mesh) in enumerate(zip(self._scene.objects, self._meshes, strict=True)):
+            description[f"object_{i}"] = _shape(obj, mesh, bsdfs[obj.material])
         if ground:
             paper = mi.load_dict({"type": "diffuse", "reflectance": PAPER})
             description["ground"] = _mesh("ground", sweep(), paper)
@@ -125,8 +125,8 @@ class Stage:
 
     def _window(self) -> Window:
         corners = [
-            _box(place) if mesh is None else mesh.positions
-            for place, mesh in zip(self._scene.objects, self._meshes, strict=True)
+            _box(obj) if mesh is None else mesh.positions
+            for obj, mesh in zip(self._scene.objects, self._meshes, strict=True)
         ]
         return window(self._scene.camera, self._size, np.concatenate(corners))
 
@@ -157,10 +157,9 @@ def _meshes(scene: Scene, mesh: Path | None) -> list[Mesh | None]:
     """The mesh of each object; None for a sphere, which Mitsuba has itself."""
     own = None if mesh is None else read_mesh(mesh)
     if own is not None:
-        return [placed(own, place) for place in scene.objects]
+        return [placed(own, obj) for obj in scene.objects]
     return [
-        placed(_MADE[place.shape](), place) if place.shape in _MADE else None
-        for place in scene.objects
+        placed(_MADE[obj.shape](), obj) if obj.shape in _MADE else None for obj in scene.objects
     ]
 
 
@@ -168,11 +167,11 @@ _MADE = {"teapot": tessellate, "disc": disc}
 """Meshes by shape."""
 
 
-def _shape(place: Placed, mesh: Mesh | None, bsdf: Any) -> Any:
+def _shape(obj: Placed, mesh: Mesh | None, bsdf: Any) -> Any:
     if mesh is not None:
-        return _mesh(place.shape, mesh, bsdf)
-    x, y, z = place.at
-    radius = place.height / 2
+        return _mesh(obj.shape, mesh, bsdf)
+    x, y, z = obj.at
+    radius = obj.height / 2
     # Its tangent runs around the vertical.
     return {"type": "sphere", "center": [x, y, z + radius], "radius": radius, "bsdf": bsdf}
 
@@ -234,10 +233,10 @@ def _point(light: PointLight) -> dict[str, Any]:
     }
 
 
-def _box(place: Placed) -> np.ndarray:
+def _box(obj: Placed) -> np.ndarray:
     """Corners of the cube around a sphere."""
     signs = np.array(np.meshgrid([-1, 1], [-1, 1], [0, 2])).reshape(3, -1).T
-    return np.array(place.at) + signs * place.height / 2
+    return np.array(obj.at) + signs * obj.height / 2
 
 
 def _sensor(

@@ -210,13 +210,13 @@ def _add_blocks(app: FastAPI, explorer: Explorer) -> None:
 def _add_page(app: FastAPI, page: Page) -> None:
     @app.get("/{path:path}", include_in_schema=False)
     def asset(path: str, request: Request) -> Response:
-        found = page.assets.get(path or "index.html")
-        if found is None:
+        file = page.assets.get(path or "index.html")
+        if file is None:
             raise HTTPException(404)
         kept = IMMUTABLE if path.startswith(HASHED) else REVALIDATED
-        if request.headers.get("if-none-match") == found.etag:
-            return _unchanged(found.etag, kept)
-        return _content(request, found, found.media_type, found.etag, {"Cache-Control": kept})
+        if request.headers.get("if-none-match") == file.etag:
+            return _unchanged(file.etag, kept)
+        return _content(request, file, file.media_type, file.etag, {"Cache-Control": kept})
 
 
 def _answer_mistakes(app: FastAPI) -> None:

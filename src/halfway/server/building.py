@@ -70,9 +70,9 @@ def _files(path: Path) -> list[Path]:
 
 def _npm() -> list[str] | None:
     """The command that runs npm: the machine's, this environment's, or one that uv fetches."""
-    found = shutil.which("npm")
-    if found is not None:
-        return [found]
+    own = shutil.which("npm")
+    if own is not None:
+        return [own]
     folder = _wheel_folder()
     if folder is not None:
         return [

@@ -178,9 +178,9 @@ class Explorer:
 
     def position(self, asked: Point) -> PositionView:
         """The material at a point of a space, or at the nearest that is a mix."""
-        found = self.space(asked.space, asked.blend).at(asked.point, clamp=True)
-        recipe = RecipeDocument.model_validate(found.recipe.to_json())
-        return PositionView(recipe=recipe, point=found.point.tolist(), inside=found.inside)
+        nearest = self.space(asked.space, asked.blend).at(asked.point, clamp=True)
+        recipe = RecipeDocument.model_validate(nearest.recipe.to_json())
+        return PositionView(recipe=recipe, point=nearest.point.tolist(), inside=nearest.inside)
 
     def attributes(self) -> AttributesView:
         """What instruments read off all materials."""

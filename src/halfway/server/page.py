@@ -76,14 +76,14 @@ def refresh(root: Path) -> None:
 
 
 def _walk(folder: Traversable, prefix: str) -> list[tuple[str, Asset]]:
-    found: list[tuple[str, Asset]] = []
+    assets: list[tuple[str, Asset]] = []
     for entry in folder.iterdir():
         if entry.is_dir():
-            found += _walk(entry, f"{prefix}{entry.name}/")
+            assets += _walk(entry, f"{prefix}{entry.name}/")
             continue
         suffix = "." + entry.name.rpartition(".")[2]
         if suffix in TYPES:
             body = entry.read_bytes()
             etag = f'"{hashlib.sha256(body).hexdigest()[:16]}"'
-            found.append((prefix + entry.name, Asset(body, TYPES[suffix], etag)))
-    return found
+            assets.append((prefix + entry.name, Asset(body, TYPES[suffix], etag)))
+    return assets

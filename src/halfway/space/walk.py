@@ -156,11 +156,11 @@ def _cheapest(
     """The columns in the order in which they belong to the basis of the cheapest combination that makes ``target``."""
     from scipy.optimize import linprog
 
-    found = linprog(costs, A_eq=columns, b_eq=target, method="highs-ds")
-    if found.x is None:
+    solution = linprog(costs, A_eq=columns, b_eq=target, method="highs-ds")
+    if solution.x is None:
         return None
-    carrying = found.x > INSIDE
-    return np.lexsort((found.lower.marginals, ~carrying))
+    carrying = solution.x > INSIDE
+    return np.lexsort((solution.lower.marginals, ~carrying))
 
 
 def _first_basis(

@@ -169,9 +169,11 @@ def _reconstructed(
     for name, method in methods.items():
         rows: dict[int, list[Scores]] = {}
         fold, unit = partial(_fold, run, method, ks), ("reconstruct", on.name, name)
-        found = run.journal.run(fold, on.folds, unit, run.work, label=f"{on.name}: {name}")
-        own = {k for each in found for k, _ in each if len(each) == 1}  # numbers of its own choice
-        for k, scores in chain.from_iterable(found):
+        by_fold = run.journal.run(fold, on.folds, unit, run.work, label=f"{on.name}: {name}")
+        own = {
+            k for each in by_fold for k, _ in each if len(each) == 1
+        }  # numbers of its own choice
+        for k, scores in chain.from_iterable(by_fold):
             rows.setdefault(k if len(own) < 2 else 0, []).extend(scores)
         for k, scores in rows.items():
             yield Result.of("reconstruct", on.name, name, k, [scores])
