@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from conftest import race, ratio
+from racing import race, ratio
 
 from halfway.cluster import Cluster
 from halfway.components import Pca
@@ -21,10 +21,8 @@ def cluster():
     """Two worker processes of one thread each."""
     from distributed import LocalCluster
 
-    with (
-        LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=":0") as local,
-        Cluster.at(local.scheduler_address) as cluster,
-    ):
+    local = LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=":0")
+    with local, Cluster.at(local.scheduler_address) as cluster:
         yield cluster
 
 

@@ -13,7 +13,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
-from conftest import race, ratio
+from racing import race, ratio
 from sklearn.decomposition import PCA
 
 from halfway import Grid, Pca, build_library

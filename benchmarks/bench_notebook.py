@@ -2,9 +2,8 @@
 
 import pytest
 
-from halfway._display import recipe_png, route_png
+from halfway._display import material_html, route_png
 from halfway.library import open_library
-from halfway.look import table_png
 from halfway.recipes import Recipe
 from halfway.space import LinearSpace, Route
 
@@ -15,12 +14,12 @@ def library():
 
 
 def bench_showing_a_table(benchmark, library):
-    benchmark(table_png, library.brdf("gold-paint"))
+    benchmark(material_html, library.brdf("gold-paint"))
 
 
 def bench_showing_a_recipe(benchmark, library):
     recipe = Recipe.from_text(library.name, "gold-paint=0.4, teflon=0.3, chrome=0.2, nylon=0.1")
-    benchmark(recipe_png, recipe)
+    benchmark(material_html, recipe)
 
 
 def bench_showing_a_route(benchmark, library):

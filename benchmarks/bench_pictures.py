@@ -1,7 +1,7 @@
 """A frame of a route from basis images, against rendering the mixed table."""
 
 import numpy as np
-from conftest import race, ratio
+from racing import race, ratio
 
 from halfway import LinearSpace, Route
 from halfway.recipes import Mixer

@@ -8,7 +8,7 @@ from functools import partial
 
 import numpy as np
 import pytest
-from conftest import race, ratio
+from racing import race, ratio
 from scipy.spatial import Delaunay
 
 from halfway import HalfDiff, PaperSpace, Pca, Recipe, Route, from_half_diff
@@ -215,9 +215,9 @@ def bench_evaluation(figures, library):
 
     def gathers():
         coordinates = naive_coordinates(wi, wo)
-        total = 0.0
+        total = np.zeros((n, 3))
         for corner in np.ndindex(2, 2, 2):
-            index, weight = 0, 1.0
+            index, weight = np.zeros(n, int), np.ones(n)
             for x, size, step in zip(coordinates, (90, 90, 180), corner, strict=True):
                 low = np.floor(x)
                 weight = weight * np.abs(1 - step - (x - low))

@@ -11,6 +11,7 @@ import subprocess
 import sys
 import tempfile
 import time
+from collections.abc import Sequence
 from pathlib import Path
 from statistics import median
 
@@ -58,7 +59,7 @@ def main() -> None:
 
 
 def _round(
-    commands: list[str], pythons: dict[str, str], folder: Path, i: int
+    commands: Sequence[str], pythons: dict[str, str], folder: Path, i: int
 ) -> dict[str, list[float]]:
     times: dict[str, list[float]] = {version: [] for version in pythons}
     here = {version: folder / version / str(i) for version in pythons}

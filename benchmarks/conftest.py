@@ -1,20 +1,17 @@
-"""What the benchmarks share: races in one run, and the one table at the end.
+"""What the benchmarks share: the one table at the end.
 
-A figure is a ratio. Both sides are timed in turn, round by round, so that what else the machine does hits both alike; the ratio is
-the median over the rounds. The table is printed when all is done, and written to figures.json for `table.py`; what was not run
-stays there as it was.
+It is printed when all is done, and written to figures.json for `table.py`; what was not run stays there as it was.
 """
 
 import json
 import os
 import platform
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import asdict, dataclass, field
 from functools import partial
 from pathlib import Path
 
-import numpy as np
 import pytest
 
 FIGURES = Path(__file__).parent / "figures.json"
@@ -52,33 +49,11 @@ class Figures(list[Figure]):
         self.append(Figure(what, compared, float(f"{ratio:.3g}"), goal, note))
 
 
-def race(
-    *runners: Callable[[], object], rounds: int = 7, after: Callable[[], object] = lambda: None
-) -> np.ndarray:
-    """Seconds of each of the runners in each round, (rounds, runners), in turn; one round before that warms up.
-
-    What follows each run, such as taking away what it wrote, is not timed.
-    """
-    seconds = np.empty((rounds + 1, len(runners)))
-    for times in seconds:
-        for i, run in enumerate(runners):
-            start = time.perf_counter()
-            run()
-            times[i] = time.perf_counter() - start
-            after()
-    return seconds[1:]
-
-
-def ratio(seconds: np.ndarray, i: int, j: int) -> float:
-    """How many times longer runner i takes than runner j."""
-    return float(np.median(seconds[:, i] / seconds[:, j]))
-
-
 @pytest.fixture(scope="session")
 def figures(request: pytest.FixtureRequest) -> Iterator[Figures]:
-    found = Figures()
-    request.config.stash[_KEY] = found
-    yield found
+    measured = Figures()
+    request.config.stash[_KEY] = measured
+    yield measured
     about = {
         "cores": os.cpu_count(),
         "machine": platform.machine(),
@@ -86,7 +61,7 @@ def figures(request: pytest.FixtureRequest) -> Iterator[Figures]:
     }
     rows = {
         (row["what"], row["compared"]): row
-        for row in [*json.loads(FIGURES.read_text())["figures"], *map(asdict, found)]
+        for row in [*json.loads(FIGURES.read_text())["figures"], *map(asdict, measured)]
     }
     FIGURES.write_text(
         json.dumps({"about": about, "figures": list(rows.values())}, indent=1) + "\n"
@@ -97,11 +72,11 @@ _KEY = pytest.StashKey[Figures]()
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
-    found = terminalreporter.config.stash.get(_KEY, None)
-    if not found:
+    measured = terminalreporter.config.stash.get(_KEY, None)
+    if not measured:
         return
     terminalreporter.section("figures: ratios measured in this run")
-    for f in found:
+    for f in measured:
         goal = f"goal {f.goal}{': missed' if f.missed else ''}" if f.goal else ""
         terminalreporter.write_line(
             f"{f.what:44}  {f.compared:44}  {f.ratio:8.4g}  {goal:22}  {f.note}"

@@ -29,12 +29,12 @@ ROUNDS = 7
 
 def main() -> None:
     """Measure, and print a line for each."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--size", type=int, default=512)
     parser.add_argument("--spp", type=int, default=64)
     given = parser.parse_args()
     for finding in doctor():
-        print(f"{finding.what:14} {finding.found or 'missing: ' + finding.cost}")
+        print(f"{finding.what:14} {finding.version or 'missing: ' + finding.cost}")
     renderer = Renderer("teapot", size=(given.size, given.size), spp=given.spp)
     import mitsuba as mi
 

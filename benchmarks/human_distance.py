@@ -18,6 +18,7 @@ from pathlib import Path
 import numpy as np
 from scipy.optimize import minimize
 
+from halfway.brdf.metrics import Metric
 from halfway.cache import user_folder
 from halfway.library import Library, open_library
 from halfway.look import CellSamples
@@ -28,12 +29,16 @@ N_GROUPS = 10
 SHRINKAGE = 1e-3
 """Of the squared weights of features of unit variance, against the mean log likelihood of a vote."""
 N_BOOTSTRAPS = 1000
-METRICS = {"L2": "cosine", "cube root": "cube-root", "log-relative": "log-relative"}
+METRICS: dict[str, Metric] = {
+    "L2": "cosine",
+    "cube root": "cube-root",
+    "log-relative": "log-relative",
+}
 
 
 def main() -> None:
     """Print how well each distance agrees with people, and the weights of ours."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("answers", type=Path)
     parser.add_argument("library")
     parser.add_argument("--write", action="store_true", help="the weights into the package")

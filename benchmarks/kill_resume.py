@@ -36,7 +36,7 @@ ABOUT = ("manifest.json", "manifest.jsonl")
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--stops", type=int, default=200)
     parser.add_argument("--signal", choices=["KILL", "INT"], default="KILL")
     parser.add_argument("--command", choices=["merl", "zarr", "render"], default="merl")

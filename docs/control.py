@@ -12,7 +12,7 @@ from halfway.brdf import fresnel
 from halfway.cli.arguments import parse_grid
 from halfway.control import Control, Wishes
 from halfway.control.wishes import attribute
-from halfway.halfdiff import Grid, cosines
+from halfway.halfdiff import MERL, Grid, cosines
 from halfway.instruments import ATTRIBUTES, INSTRUMENTS, of_readings, read_table
 from halfway.library import Library, ProceduralLibrary, open_library
 from halfway.people import QUALITIES, Perception
@@ -31,7 +31,7 @@ def main() -> None:
     parser.add_argument("library")
     parser.add_argument("--grid", default="90x45x45", help="that materials are sampled on")
     options = parser.parse_args()
-    given, grid = open_library(options.library), parse_grid(options.grid)
+    given, grid = open_library(options.library), parse_grid(options.grid) or MERL
     models = {name: given.material(name) for name in given.names}
     library = ProceduralLibrary(given.name, models, grid=grid)
     start = time.perf_counter()
@@ -138,9 +138,10 @@ def print_qualities(control: Control) -> None:
         )
     for name in QUALITIES:
         start = time.process_time()
-        low, high = control.reach(name, Wishes.of({"gloss60": 20}))
+        ends = control.reach(name, Wishes.of({"gloss60": 20}))
+        assert ends is not None
         print(
-            f"  {name} {low:.2f} to {high:.2f} at gloss60 = 20, {time.process_time() - start:.1f} s"
+            f"  {name} {ends.low:.2f} to {ends.high:.2f} at gloss60 = 20, {time.process_time() - start:.1f} s"
         )
 
 

@@ -52,7 +52,8 @@ class Bench:
         cells = quadrature.comparison_cells(library.grid)
         self.solid_angle = cells.solid_angle.ravel()[self.lit]
         self.near = ~np.broadcast_to(cells.grazing, library.grid.shape).ravel()[self.lit]
-        self.cosines = tuple(c[self.lit] for c in cosines_at(library.grid, whole))
+        cos_i, cos_o = cosines_at(library.grid, whole)
+        self.cosines = np.asarray(cos_i)[self.lit], np.asarray(cos_o)[self.lit]
         known, truth = (each.columns(whole)[..., self.lit] for each in (self.train, self.test))
         self.known = {
             channels: as_batches(mapped(known, self.cosines), channels)
@@ -66,12 +67,12 @@ class Bench:
         batches = self.known["apart"]
         missed = setup.left_out.astype(np.float32) @ batches - batches
         half = setup.half_width(level) * spread(missed)
-        found = []
+        by_material = []
         for name, truth in zip(self.test.names, self.truth.swapaxes(0, 1), strict=True):
             values = self.test.material(name).eval(*pairs)
             recovered = Recovery.of(setup, Measurements(*pairs, values)).weights @ batches[0]
-            found.append(self._errors(recovered, truth, half))
-        return Errors(*np.mean(found, axis=0).tolist())
+            by_material.append(self._errors(recovered, truth, half))
+        return Errors(*np.mean(by_material, axis=0).tolist())
 
     def seen(self, values: np.ndarray) -> np.ndarray:
         """What errors are taken in."""

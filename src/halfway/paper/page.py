@@ -5,6 +5,7 @@ from pathlib import Path
 
 from ..export import TableRow, html_page, markdown_table
 from ..files import write_text
+from .experiment import MeasuredRun
 from .reported import (
     N_COMPONENTS,
     N_STEPS,
@@ -13,7 +14,7 @@ from .reported import (
     SMALL_EIGENVALUE,
     TABLE_1,
 )
-from .reproduction import MeasuredRun, Reproduction
+from .reproduction import Reproduction
 
 
 def write_page(folder: Path, results: Reproduction) -> None:

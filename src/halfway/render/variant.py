@@ -116,11 +116,13 @@ def _register_in(_: str | None, variant: str) -> None:
     """Register the table in the variant that is set now; `mitsuba.BSDF` is another class in each."""
     if not compiles(variant):
         return
+    import mitsuba as mi
+
     from . import bsdf
 
     if variant != bsdf.VARIANT:
         importlib.reload(bsdf)
-    bsdf.mi.register_bsdf("halfway_table", bsdf.TableBsdf)
+    mi.register_bsdf("halfway_table", bsdf.TableBsdf)
 
 
 def _fitting(device: Device) -> str:

@@ -99,7 +99,7 @@ class Route:
         """The recipe at one t."""
         return self.recipes([t])[0]
 
-    def recipes(self, t: Sequence[float]) -> list[Recipe]:
+    def recipes(self, t: Sequence[float] | np.ndarray) -> list[Recipe]:
         """The recipe at each t.
 
         Raises
@@ -126,7 +126,7 @@ class Route:
         """Indices of the materials that carry weight anywhere on the route."""
         return np.flatnonzero(self.way.weights.any(axis=(0, 1)))
 
-    def to_json(self, t: Sequence[float]) -> dict[str, Any]:
+    def to_json(self, t: Sequence[float] | np.ndarray) -> dict[str, Any]:
         """The document ``recipes.json``: the recipes at each t, and where they come from."""
         recipes = zip(t, self.recipes(t), strict=True)
         return {
