@@ -59,9 +59,17 @@ def bench_read(figures, library, tmp_path):
     figures.note(what, "ours / reading the bytes", ratio(seconds, 0, 2))
 
 
-def bench_mix(figures, library, recipe):
-    """Copying moves as many bytes as a mix reads and writes: four tables in, one out."""
+@pytest.fixture
+def mixer(library, recipe):
+    """One whose loops are compiled by now."""
     mixer = Mixer(library)
+    for _ in range(N_AT_ONCE + 1):
+        mixer.mix(recipe)
+    return mixer
+
+
+def bench_mix(figures, library, recipe, mixer):
+    """Copying moves as many bytes as a mix reads and writes: four tables in, one out."""
     rows = [library.row(i) for i in range(4)]
     stack = np.stack(rows)
     w = recipe.weights[0]
@@ -86,12 +94,10 @@ def bench_mix(figures, library, recipe):
     figures.note(what, "ours / copying as many bytes", ratio(seconds, 0, 3), goal="<= 1.5")
 
 
-def bench_blends(figures, library, recipe, tmp_path):
+def bench_blends(figures, recipe, mixer, tmp_path):
     """Every blend of the same four materials, and the slowest into a file."""
-    mixer, path = Mixer(library), tmp_path / "mix.binary"
+    path = tmp_path / "mix.binary"
     recipes = [replace(recipe, blend=blend) for blend in Blend]
-    for _ in range(N_AT_ONCE + 1):
-        mixer.mix(recipe)  # compiled from now on
     seconds = race(*(partial(mixer.mix, each) for each in recipes), rounds=9)
     for i, blend in enumerate(Blend):
         note = f"{1e3 * np.median(seconds[:, i]):.0f} ms"
@@ -120,8 +126,7 @@ def onto_disk(folder):
             os.fsync(file)
 
 
-def bench_mix_and_write(figures, library, recipe, tmp_path):
-    mixer = Mixer(library)
+def bench_mix_and_write(figures, recipe, mixer, tmp_path):
     path = tmp_path / "mix.binary"
     write_merl(path, mixer.mix(recipe))
     content = path.read_bytes()

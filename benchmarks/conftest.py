@@ -56,7 +56,7 @@ def figures(request: pytest.FixtureRequest) -> Iterator[Figures]:
     yield measured
     about = {
         "cores": os.cpu_count(),
-        "machine": platform.machine(),
+        "processor": _processor(),
         "python": platform.python_version(),
     }
     rows = {
@@ -66,6 +66,14 @@ def figures(request: pytest.FixtureRequest) -> Iterator[Figures]:
     FIGURES.write_text(
         json.dumps({"about": about, "figures": list(rows.values())}, indent=1) + "\n"
     )
+
+
+def _processor() -> str:
+    """What the processor calls itself."""
+    about = Path("/proc/cpuinfo")
+    lines = about.read_text().splitlines() if about.exists() else []
+    names = (line.partition(": ")[2] for line in lines if line.startswith("model name"))
+    return next(names, platform.machine())
 
 
 _KEY = pytest.StashKey[Figures]()

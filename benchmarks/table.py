@@ -24,7 +24,7 @@ def table(found: dict) -> str:
     ]
     about = found["about"]
     lines.append("")
-    lines.append(f"{about['cores']} cores, {about['machine']}, Python {about['python']}.\n")
+    lines.append(f"{about['cores']} cores, {about['processor']}, Python {about['python']}.\n")
     return "\n".join(lines)
 
 
