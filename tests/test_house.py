@@ -3,6 +3,7 @@
 import ast
 import re
 from collections.abc import Iterator
+from functools import cache
 from importlib import import_module
 from pathlib import Path
 
@@ -21,10 +22,16 @@ VAGUE = {"found", "made", "told", "place", "places", "thing", "things", "stuff",
 """Words that say nothing to who has not read the neighbours."""
 
 
+@cache
+def tree(path: Path) -> ast.Module:
+    """What a file says."""
+    return ast.parse(path.read_text())
+
+
 def imports(path: Path) -> Iterator[tuple[list[str], ast.ImportFrom]]:
     """The package's modules that a file imports from, as parts of their names."""
     package = list(path.relative_to(SOURCE).parts[:-1])
-    for node in ast.walk(ast.parse(path.read_text())):
+    for node in ast.walk(tree(path)):
         if not isinstance(node, ast.ImportFrom):
             continue
         parts = node.module.split(".") if node.module else []
@@ -54,7 +61,7 @@ def test_no_test_imports_another() -> None:
 @pytest.mark.parametrize("path", FILES, ids=lambda path: str(path.relative_to(SOURCE)))
 def test_text_files_say_their_encoding(path: Path) -> None:
     """Before Python 3.15 Windows takes its own code page."""
-    for node in ast.walk(ast.parse(path.read_text())):
+    for node in ast.walk(tree(path)):
         match node:
             case ast.Call(func=ast.Attribute(attr="read_text" | "write_text" as name)):
                 arguments = len(node.args) + len(node.keywords)
@@ -71,7 +78,7 @@ def test_a_folder_has_at_most_twenty_public_names(folder: str) -> None:
 @pytest.mark.parametrize("path", FILES, ids=lambda path: str(path.relative_to(SOURCE)))
 def test_nobody_asks_what_kind_a_space_or_a_library_is(path: Path) -> None:
     foreign = set().union(*(names for home, names in KINDS.items() if home not in path.parts))
-    for node in ast.walk(ast.parse(path.read_text())):
+    for node in ast.walk(tree(path)):
         if isinstance(node, ast.Call) and getattr(node.func, "id", "") in ("isinstance", "type"):
             names = {leaf.id for leaf in ast.walk(node) if isinstance(leaf, ast.Name)}
             assert not names & foreign, f"line {node.lineno}"
@@ -83,7 +90,7 @@ def lengths() -> dict[str, int]:
     """Lines of every function, without its decorators and docstring."""
     n_lines_of = {}
     for path in FILES:
-        for node in ast.walk(ast.parse(path.read_text())):
+        for node in ast.walk(tree(path)):
             if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
                 first = node.body[0]
                 has_text = ast.get_docstring(node) is not None
@@ -134,7 +141,7 @@ def test_public_names_say_what_they_are(folder: str) -> None:
 
 @pytest.mark.parametrize("path", FILES, ids=lambda path: str(path.relative_to(SOURCE)))
 def test_local_names_say_what_they_are(path: Path) -> None:
-    for node in ast.walk(ast.parse(path.read_text())):
+    for node in ast.walk(tree(path)):
         match node:
             case ast.Name(id=name, ctx=ast.Store()) | ast.arg(arg=name):
                 allowed = {"data", "made"}  # numbers that are plotted; a manifest's key
