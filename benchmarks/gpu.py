@@ -34,7 +34,7 @@ def main() -> None:
     parser.add_argument("--spp", type=int, default=64)
     given = parser.parse_args()
     for finding in doctor():
-        print(f"{finding.what:14} {finding.version or 'missing: ' + finding.cost}")
+        print(f"{finding.what:14} {finding.found or 'missing: ' + finding.cost}")
     renderer = Renderer("teapot", size=(given.size, given.size), spp=given.spp)
     import mitsuba as mi
 

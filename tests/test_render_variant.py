@@ -5,6 +5,7 @@ import signal
 import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import asdict
 from pathlib import Path
 
 import numpy as np
@@ -33,7 +34,9 @@ def test_the_doctor_names_everything_and_what_its_absence_costs():
     assert list(findings) == ["Mitsuba", "GPU", "LLVM", "variant", "denoiser", "video writer"]
     assert all(f.cost for f in findings.values())
     assert [f.what for f in findings.values() if f.needed] == ["Mitsuba", "variant"]
-    assert findings["variant"].version == VARIANTS["gpu" if findings["GPU"].version else "cpu"]
+    # The keys of `halfway doctor --json`.
+    assert [*asdict(findings["GPU"])] == ["what", "found", "cost", "needed"]
+    assert findings["variant"].found == VARIANTS["gpu" if findings["GPU"].found else "cpu"]
 
 
 def test_the_doctor_says_why_no_variant_renders(monkeypatch, tmp_path):
@@ -42,8 +45,8 @@ def test_the_doctor_says_why_no_variant_renders(monkeypatch, tmp_path):
     monkeypatch.setenv("DRJIT_LIBLLVM_PATH", str(library))
     monkeypatch.setenv("DRJIT_LIBCUDA_PATH", str(tmp_path / "none.so"))
     findings = {finding.what: finding for finding in doctor()}
-    assert findings["GPU"].version is None
-    assert findings["variant"].version is None
+    assert findings["GPU"].found is None
+    assert findings["variant"].found is None
     assert "LLVM 14" in findings["variant"].cost
 
 

@@ -76,6 +76,6 @@ def doctor(as_json: AsJson = False) -> None:
         show_json({"format": 1, "findings": [asdict(one) for one in findings]})
         return
     for finding in findings:
-        print(f"{finding.what:14} {finding.version or 'missing: ' + finding.cost}")
-    if any(finding.needed and finding.version is None for finding in findings):
+        print(f"{finding.what:14} {finding.found or 'missing: ' + finding.cost}")
+    if any(finding.needed and finding.found is None for finding in findings):
         raise typer.Exit(1)

@@ -27,7 +27,7 @@ class Finding:
     """One thing that rendering uses."""
 
     what: str
-    version: str | None
+    found: str | None
     """What there is, with its version; None where there is none that works."""
     cost: str
     """What its absence costs, and what to do."""

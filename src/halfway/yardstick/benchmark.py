@@ -170,9 +170,8 @@ def _reconstructed(
         rows: dict[int, list[Scores]] = {}
         fold, unit = partial(_fold, run, method, ks), ("reconstruct", on.name, name)
         by_fold = run.journal.run(fold, on.folds, unit, run.work, label=f"{on.name}: {name}")
-        own = {
-            k for each in by_fold for k, _ in each if len(each) == 1
-        }  # numbers of its own choice
+        # Numbers of components that the method chooses itself.
+        own = {k for each in by_fold for k, _ in each if len(each) == 1}
         for k, scores in chain.from_iterable(by_fold):
             rows.setdefault(k if len(own) < 2 else 0, []).extend(scores)
         for k, scores in rows.items():
